@@ -4,21 +4,13 @@ use std::io;
 
 use antinode::SettingsError;
 
-use crate::recording::{InputError, OutputError};
-
 /// Windows' error code for a pipe without a process on its other end, for which `io::ErrorKind` has no kind.
 const PIPE_NOT_CONNECTED: i32 = 233;
 
 /// A failure, which sets the exit code: 1 for a fault in the data or the system, 2 for a wrong command line, 130 for an interruption.
 #[derive(Debug, thiserror::Error)]
 pub enum Failure {
-    /// A recording cannot be opened or read further.
-    #[error(transparent)]
-    Input(#[from] InputError),
-    /// A recording or a figure could not be written.
-    #[error(transparent)]
-    Output(#[from] OutputError),
-    /// Anything else that is wrong with a file, a port or the system: the message names it and the remedy.
+    /// Something is wrong with a file, a port or the system: the message names it and the remedy.
     #[error("{0}")]
     Fault(String),
     /// The command line asks for something that makes no sense.
@@ -46,10 +38,23 @@ impl Failure {
             Self::Usage(_) => 2,
             // A shell's code for Ctrl-C, also for other signals: which one came is not known here.
             Self::Interrupted { .. } | Self::Stopped => 130,
-            Self::Output(error) if error.is_usage() => 2,
             _ => 1,
         }
     }
+}
+
+/// The failure for what the system said about writing a file.
+pub fn unwritable(file: &str, fault: &io::Error) -> Failure {
+    Failure::Fault(format!(
+        "{file}: cannot be written: {fault}; check that its directory exists, is writable and has free space"
+    ))
+}
+
+/// The failure for a file whose extension is none of these `endings`.
+pub fn unknown_extension(file: &str, endings: &str) -> Failure {
+    Failure::Usage(format!(
+        "{file}: the extension is not that of a known format; end the name in {endings}"
+    ))
 }
 
 impl From<SettingsError> for Failure {

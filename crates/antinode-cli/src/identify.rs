@@ -130,7 +130,7 @@ fn identify(
         match recording.read(&mut buffer) {
             Ok(0) => break None,
             Ok(_) => {}
-            Err(error) => break Some(error.into()),
+            Err(error) => break Some(error),
         }
         let goes_on = windows
             .take(&mut recording, &buffer, rows)

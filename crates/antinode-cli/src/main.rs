@@ -32,6 +32,7 @@ mod serialized;
 mod simulate;
 mod study;
 mod tell;
+mod whole_file;
 
 use std::env;
 use std::process::ExitCode;

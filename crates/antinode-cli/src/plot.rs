@@ -18,9 +18,9 @@ use clap::Args;
 
 use crate::canvas;
 use crate::digits::counted;
-use crate::failure::Failure;
+use crate::failure::{Failure, unwritable};
 use crate::given_rows::{GivenRows, none_within};
-use crate::recording::{OutputError, WholeFile};
+use crate::whole_file::WholeFile;
 use draw::Format;
 use figure::figure;
 use rows::Trust;
@@ -71,7 +71,7 @@ pub fn run(options: &Plot) -> Result<(), Failure> {
             draw::png(whole.temporary(), &figure, &names).map_err(|_| canvas::not_stored())
         }
     };
-    written.map_err(|fault| OutputError::io(whole.name(), fault))?;
+    written.map_err(|fault| unwritable(whole.name(), &fault))?;
     whole.finish()?;
     let flagged = rows().filter(|row| row.trust != Trust::Clean).count();
     writeln!(

@@ -13,8 +13,9 @@ use serde::Serialize;
 
 use crate::failure::Failure;
 use crate::interrupt::on_interrupt;
-use crate::recording::{RecordingWriter, WholeFile};
+use crate::recording::RecordingWriter;
 use crate::tell::tell;
+use crate::whole_file::WholeFile;
 pub use options::Simulate;
 
 /// The truth about the recording, as JSON.

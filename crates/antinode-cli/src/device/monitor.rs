@@ -12,7 +12,7 @@ use super::source::{Input, Source};
 use super::{BAUD, describe};
 use crate::failure::Failure;
 use crate::options::Format;
-use crate::recording::InputError;
+use crate::recording::unreadable;
 use crate::rows::Rows;
 use crate::tell::tell;
 
@@ -108,7 +108,7 @@ fn follow(source: &Source, screen: &mut Screen<impl Write>) -> Result<(), Failur
                         "{name}: the port fails: {error}; check that the device is plugged in"
                     ))
                 } else {
-                    InputError::io(name, error).into()
+                    unreadable(name, error)
                 });
             }
         }

@@ -7,9 +7,9 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::options::Identify;
 use crate::digits::counted;
-use crate::failure::Failure;
-use crate::recording::{OutputError, WholeFile};
+use crate::failure::{Failure, unwritable};
 use crate::tell::tell;
+use crate::whole_file::WholeFile;
 
 /// The unfinished file of the rows, if they go to a regular file.
 #[derive(Clone)]
@@ -113,14 +113,14 @@ fn is_device_of_windows(path: &Path) -> bool {
 }
 
 /// Opens a device or a pipe, behind its present contents.
-fn stream(path: &Path) -> Result<File, OutputError> {
+fn stream(path: &Path) -> Result<File, Failure> {
     // The console of Windows cannot be appended to.
     let file = if cfg!(windows) {
         File::options().write(true).open(path)
     } else {
         File::options().append(true).open(path)
     };
-    file.map_err(|fault| OutputError::io(&path.display().to_string(), fault))
+    file.map_err(|fault| unwritable(&path.display().to_string(), &fault))
 }
 
 /// A writer that repeats its first error for ever: what is still buffered would leave a hole behind what was written.

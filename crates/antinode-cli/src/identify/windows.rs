@@ -216,7 +216,7 @@ impl<'a> Windows<'a> {
             })),
         };
         let missing = [recording.lost(), recording.not_finite()];
-        let missing = missing.into_iter().flatten().map(Failure::from);
+        let missing = missing.into_iter().flatten();
         let mut failures = missing.chain(mistaken).chain(failure);
         let Some(mut last) = failures.next() else {
             return Ok(());

@@ -12,7 +12,8 @@ use super::panel::Panel;
 use super::reduce::Piece;
 use super::values::{self, Values};
 use crate::canvas::{self, FONT};
-use crate::recording::{OutputError, OutputFault, extension};
+use crate::failure::{Failure, unknown_extension};
+use crate::recording::extension;
 
 /// Width of a panel's plotting area, in columns of pixels.
 pub const COLUMNS: usize = 880;
@@ -64,15 +65,14 @@ pub enum Format {
 
 impl Format {
     /// The format that the ending of a file's name says.
-    pub fn of(path: &Path) -> Result<Self, OutputError> {
+    pub fn of(path: &Path) -> Result<Self, Failure> {
         match extension(path).as_str() {
             "svg" => Ok(Self::Svg),
             "png" => Ok(Self::Png),
-            _ => {
-                let endings = ".svg or .png";
-                let fault = OutputFault::Unknown { endings };
-                Err(OutputError::new(&path.display().to_string(), fault))
-            }
+            _ => Err(unknown_extension(
+                &path.display().to_string(),
+                ".svg or .png",
+            )),
         }
     }
 }

@@ -22,6 +22,15 @@ pub struct OpenOptions {
     pub rate: Option<f64>,
 }
 
+/// Neither the content nor the extension is known.
+pub(super) const UNKNOWN: &str = "the format is not known, neither by content nor by extension; give a .wav, .csv, .tsv, .txt, .lvm or .npy \
+                                  file, or for raw samples their format with --raw u8, i8, u16, i16, i24, i32, f32 or f64, or for text the \
+                                  columns with --columns";
+/// Standard input of no known format, without a sample format.
+pub(super) const RAW_FORMAT_NEEDED: &str = "this is neither WAV, NPY nor CSV; for raw samples give their format with --raw u8, i8, u16, i16, \
+                                            i24, i32, f32 or f64 (little-endian, S_C and S_D interleaved), or for text the columns with \
+                                            --columns";
+
 /// Opens a stream by its content, or else by what is known about it otherwise.
 pub(super) fn open(stream: Stream, known: Known, options: &OpenOptions) -> Result<Opened, Fault> {
     let length = known.length;
@@ -37,20 +46,28 @@ pub(super) fn open(stream: Stream, known: Known, options: &OpenOptions) -> Resul
         is_text |= is_named_text;
     }
     match (content, known.extension.as_str(), options.raw) {
-        (Content::Nothing, ..) => Err(Fault::Empty),
+        (Content::Nothing, ..) => Err(Fault::new(
+            "there is nothing in it; check that the recording was saved or sent",
+        )),
         (Content::Wav, ..) => wav::open(stream, length, options),
         (Content::Npy, ..) => npy::open(stream, known, options.columns.as_ref()),
-        (Content::Foreign(found), _, None) => Err(Fault::Foreign(found)),
-        (_, "wav" | "wave", None) => Err(Fault::NotOfKind { kind: "a WAV file" }),
-        (_, "npy", None) => Err(Fault::NotOfKind {
-            kind: "an NPY file",
-        }),
+        (Content::Foreign(found), _, None) => Err(found.fault()),
+        (_, "wav" | "wave", None) => Err(not_of_kind("a WAV file")),
+        (_, "npy", None) => Err(not_of_kind("an NPY file")),
         _ if is_text || content == Content::Text => {
             delimited::open(stream, options, length.is_none())
         }
         (_, _, Some(format)) => raw::open(stream, format, options, length),
-        (_, "mat", None) => Err(Fault::Foreign(&MAT)),
-        _ if known.is_named => Err(Fault::Unknown),
-        _ => Err(Fault::RawFormatNeeded),
+        (_, "mat", None) => Err(MAT.fault()),
+        _ if known.is_named => Err(Fault::new(UNKNOWN)),
+        _ => Err(Fault::new(RAW_FORMAT_NEEDED)),
     }
+}
+
+/// The fault if the content is not what the extension promises.
+fn not_of_kind(kind: &str) -> Fault {
+    Fault::new(format!(
+        "this is not {kind}, although its extension says so; export it again, correct the extension, or for raw samples give \
+         their format with --raw"
+    ))
 }

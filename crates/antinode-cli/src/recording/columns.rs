@@ -3,10 +3,11 @@
 use std::fmt;
 use std::str::FromStr;
 
-use super::error::{LineFault, Role};
+use super::error::{ROLES, TIME};
 use super::preamble::Start;
 use super::signal_units;
 use super::units::{bare, sure_unit_of, time_exponent, without_unit};
+use crate::digits::counted;
 
 /// The columns to read, chosen by the user: `c,d` or `time,c,d`, each a name from the header or a number from 1.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -14,6 +15,17 @@ pub struct Columns {
     time: Option<String>,
     signals: [String; 2],
 }
+
+/// Number of columns from which on a line probably holds all samples of one channel.
+const MANY_COLUMNS: usize = 100;
+
+/// What is wrong with rows that were identified already.
+const ROWS: &str = "these are rows printed by `antinode identify` or `monitor`, not samples; give the recording itself, or give the rows to \
+                    `antinode plot`, `resonator` or `calibrate`";
+/// What is wrong with a time and only one signal.
+const ONE_SIGNAL: &str = "found the time and one signal, but both S_C and S_D are needed; export both channels to one file, or put their \
+                          files side by side with `paste -d, c.csv d.csv`, and choose the columns with --columns TIME,C,D; if these are two \
+                          signals without a time, give --columns C,D";
 
 /// The error for a choice of columns that cannot be understood.
 const WANTED: &str =
@@ -55,7 +67,7 @@ impl fmt::Display for Columns {
 }
 
 /// The positions of the time, S_C and S_D among the columns, from 0.
-pub(super) type Places = [Option<usize>; 3];
+pub(super) type Places = [Option<usize>; ROLES.len()];
 
 /// The first line of a text recording.
 pub(super) struct FirstLine<'a> {
@@ -76,14 +88,14 @@ pub(super) struct FirstLine<'a> {
 
 impl FirstLine<'_> {
     /// The places of the `chosen` columns, or else of those that the names or the number of columns suggest.
-    pub fn places(&self, chosen: Option<&Columns>) -> Result<Places, LineFault> {
+    pub fn places(&self, chosen: Option<&Columns>) -> Result<Places, String> {
         match chosen {
             Some(columns) => self.chosen(columns),
             None => self.suggested(),
         }
     }
 
-    fn chosen(&self, columns: &Columns) -> Result<Places, LineFault> {
+    fn chosen(&self, columns: &Columns) -> Result<Places, String> {
         let [c, d] = &columns.signals;
         let wanted = [columns.time.as_ref(), Some(c), Some(d)];
         // Names may be numbers too: if all that is chosen can be column numbers, it is.
@@ -100,7 +112,10 @@ impl FirstLine<'_> {
             .filter(|_| c == d || c == time)
             .or(d.filter(|_| d == time));
         match twice {
-            Some(place) => Err(LineFault::ColumnTwice { number: place + 1 }),
+            Some(place) => Err(format!(
+                "column {} is chosen twice; choose different columns for the time, S_C and S_D with --columns",
+                place + 1
+            )),
             None => Ok(places),
         }
     }
@@ -111,7 +126,7 @@ impl FirstLine<'_> {
         (place < self.width).then_some(place)
     }
 
-    fn find(&self, wanted: &str, is_number: bool) -> Result<usize, LineFault> {
+    fn find(&self, wanted: &str, is_number: bool) -> Result<usize, String> {
         let names = self.names.filter(|_| !is_number).unwrap_or_default();
         let lower = wanted.to_lowercase();
         let tests: [&dyn Fn(&str) -> bool; 3] = [
@@ -125,9 +140,11 @@ impl FirstLine<'_> {
                 (None, _) => {}
                 (Some(place), None) => return Ok(place),
                 (Some(one), Some(other)) => {
-                    let wanted = wanted.to_owned();
-                    let numbers = [one + 1, other + 1];
-                    return Err(LineFault::ColumnUnsure { wanted, numbers });
+                    return Err(format!(
+                        "`{wanted}` may be column {} or {}; choose it by its number with --columns",
+                        one + 1,
+                        other + 1
+                    ));
                 }
             }
         }
@@ -136,14 +153,11 @@ impl FirstLine<'_> {
             let known = self
                 .names
                 .map_or(numbers, |names| format!("`{}`", names.join("`, `")));
-            LineFault::ColumnUnknown {
-                wanted: wanted.to_owned(),
-                known,
-            }
+            format!("there is no column `{wanted}`; choose among {known} with --columns")
         })
     }
 
-    fn suggested(&self) -> Result<Places, LineFault> {
+    fn suggested(&self) -> Result<Places, String> {
         let all: Vec<usize> = (0..self.width).collect();
         let numbers: Vec<usize> = self
             .start
@@ -184,14 +198,14 @@ impl FirstLine<'_> {
     }
 
     /// The places that the names or the number of these columns suggest.
-    fn among(&self, columns: &[usize]) -> Result<Places, LineFault> {
+    fn among(&self, columns: &[usize]) -> Result<Places, String> {
         let role = |place: usize| match place {
-            0 if self.has_numbers => Some(Role::Time),
+            0 if self.has_numbers => Some(TIME),
             _ => self.names.and_then(|names| role(&names[place])),
         };
         let places = || columns.iter().copied();
-        let place = |wanted: Role| places().find(|&place| role(place) == Some(wanted));
-        let [time, c, d] = Role::ALL.map(place);
+        let place = |wanted: usize| places().find(|&place| role(place) == Some(wanted));
+        let [time, c, d] = [0, 1, 2].map(place);
         // The same name over all columns does not make one of them the time: `HUnit,s,s` of Yokogawa.
         let name = |place: usize| self.names.map(|names| &names[place]);
         let time = time.filter(|&time| places().any(|place| name(place) != name(time)));
@@ -224,14 +238,41 @@ impl FirstLine<'_> {
         let mut signals = places().filter(|&place| Some(place) != time && Some(place) != count);
         match (signals.next(), signals.next(), signals.next()) {
             (Some(c), Some(d), None) => Ok([time, Some(c), Some(d)]),
-            (Some(_), None, None) if time.is_some() => Err(LineFault::OneSignal),
-            _ if self.is_of_rows => Err(LineFault::Rows),
-            _ => Err(LineFault::ColumnCount {
-                found: columns.len(),
-                are_words: self.names.is_some() && self.start.numbers.is_empty(),
-            }),
+            (Some(_), None, None) if time.is_some() => Err(ONE_SIGNAL.to_owned()),
+            _ if self.is_of_rows => Err(ROWS.to_owned()),
+            _ => {
+                let are_words = self.names.is_some() && self.start.numbers.is_empty();
+                Err(wrong_count(columns.len(), are_words))
+            }
         }
     }
+}
+
+/// What is wrong with so many columns, which cannot be understood.
+fn wrong_count(columns: usize, are_words: bool) -> String {
+    let remedy = match columns {
+        1 => {
+            "give one sample pair a line: of two files `paste -d, c.csv d.csv`, of two variables in MATLAB or Octave \
+             `dlmwrite('both.csv', [c(:) d(:)], 'precision', 9)`"
+        }
+        MANY_COLUMNS.. => {
+            "give one sample pair a line: of a line for each channel in Python `import numpy; \
+             numpy.savetxt('both.csv', numpy.loadtxt(r'FILE', delimiter=',').T, delimiter=',')`, with the file's own delimiter in \
+             `loadtxt`"
+        }
+        _ => {
+            "remove the others, or choose the right ones with --columns TIME,C,D, or C,D if there is no time"
+        }
+    };
+    let title = if are_words {
+        "; if this line is a title, delete it or begin it with #"
+    } else {
+        ""
+    };
+    format!(
+        "found {}, but two (S_C, S_D) or three (time in s, S_C, S_D) are needed; {remedy}{title}",
+        counted(columns as u64, "column")
+    )
 }
 
 /// Whether a unit is one of time, s or a decimal part of it.
@@ -239,8 +280,8 @@ fn is_of_time(unit: &str) -> bool {
     matches!(time_exponent(unit), Some(Some(_)))
 }
 
-/// The role of a column by its name.
-fn role(name: &str) -> Option<Role> {
+/// What a column holds by its name, as its place in [`ROLES`].
+fn role(name: &str) -> Option<usize> {
     let bare = name.split(['[', '(', '/']).next().unwrap_or_default();
     let bare: String = bare
         .to_lowercase()
@@ -250,10 +291,10 @@ fn role(name: &str) -> Option<Role> {
     match bare.as_str() {
         "t" | "time" | "times" | "ts" | "s" | "sec" | "second" | "seconds" | "timestamp"
         | "timems" | "timeus" | "timens" | "tms" | "tus" | "tns" | "millis" | "micros" => {
-            Some(Role::Time)
+            Some(TIME)
         }
-        "c" | "sc" | "left" => Some(Role::ALL[1]),
-        "d" | "sd" | "right" => Some(Role::ALL[2]),
+        "c" | "sc" | "left" => Some(1),
+        "d" | "sd" | "right" => Some(2),
         _ => None,
     }
 }
@@ -265,7 +306,7 @@ pub(super) fn is_known(name: &str) -> bool {
 
 /// Whether a name says that its column holds the time.
 pub(super) fn is_time(name: &str) -> bool {
-    role(name) == Some(Role::Time)
+    role(name) == Some(TIME)
 }
 
 /// Whether a name is that of a mere count of lines, or one of the letters that may be a current if there is a time too.

@@ -3,11 +3,11 @@
 mod fields;
 mod rows;
 
-use super::error::{Fault, TimeFault};
+use super::error::Fault;
 use super::gaps::{Gap, Gaps};
 use super::not_finite::Flaw;
 use super::time::{Meaning, TimeAxis, are_paired, roundest, standstill};
-use super::{OpenOptions, Opened, Source, Stream};
+use super::{OpenOptions, Opened, Source, Stream, first_of};
 use rows::{Row, Rows};
 
 /// Lines read ahead to find the sample rate from times that are rounded by printing.
@@ -15,6 +15,10 @@ const HEAD_LINES: u64 = 1 << 16;
 
 /// Lines read ahead if there is no time column: enough to tell whether they hold numbers.
 const FEW_LINES: u64 = 16;
+
+/// What is wrong if each time stands in two lines.
+const PAIRED: &str = "each time stands in two lines; if these are a minimum and a maximum (peak detect, envelope), record or export single \
+                      samples; if times are rounded, print more digits";
 
 /// Opens text; pairs of a `live` stream, a pipe, are delivered as they come.
 pub(super) fn open(stream: Stream, options: &OpenOptions, live: bool) -> Result<Opened, Fault> {
@@ -31,7 +35,7 @@ pub(super) fn open(stream: Stream, options: &OpenOptions, live: bool) -> Result<
     };
     source.read_ahead();
     if source.ahead.len() == 0 {
-        return Err(source.fault.take().unwrap_or(Fault::NoPairs));
+        return Err(source.fault.take().unwrap_or_else(Fault::no_pairs));
     }
     let (sample_rate, start) = (source.rate(), source.start());
     let axis = source.axis.as_ref();
@@ -100,7 +104,7 @@ impl Delimited {
         self.axis = TimeAxis::of(&times, self.rows.printed);
         self.start = times.first().copied().unwrap_or(0.0);
         let without_rate = if are_paired(&times) {
-            Some((0, TimeFault::Paired))
+            Some((0, PAIRED.to_owned()))
         } else if self.axis.is_none() {
             standstill(&times, self.rows.printed)
         } else {
@@ -108,7 +112,7 @@ impl Delimited {
         };
         let uneven = match without_rate {
             Some((pair, fault)) => {
-                let fault = self.rows.header.time_fault_in(places[pair].0, fault);
+                let fault = self.rows.header.time_fault(places[pair].0, &fault);
                 Some((pair as u64, fault))
             }
             None => (1..times.len()).find_map(|pair| {
@@ -156,7 +160,7 @@ impl Delimited {
         };
         let last = axis.last();
         let lost = axis.check(time, self.rows.printed);
-        let lost = lost.map_err(|fault| self.rows.header.time_fault_in(line, fault))?;
+        let lost = lost.map_err(|fault| self.rows.header.time_fault(line, &fault))?;
         if lost > 0 {
             let sequence = self.rows.header.sequence;
             let times =
@@ -246,15 +250,24 @@ impl Source for Delimited {
 
     fn lost(&self) -> Option<Fault> {
         if let Some((first, count)) = self.rows.left_out.reported() {
-            return Some(Fault::LeftOut {
-                place: first.place,
-                told: first.description.clone(),
-                count,
-                lost: self.gaps.reported(),
+            let lost = self.gaps.reported().map_or(String::new(), |(line, lost)| {
+                let samples = if lost == 1 {
+                    "sample is"
+                } else {
+                    "samples are"
+                };
+                format!(", and before line {line} {lost} {samples} lost")
             });
+            let told = format!(
+                "{}: the line is left out{}{lost}; \
+                 rows whose window lacks a sample are missing, all others are good; check the instrument or program that wrote it",
+                first.description,
+                first_of(count)
+            );
+            return Some(Fault::at(first.place, told));
         }
         let (line, fault) = self.gaps.fault()?;
-        Some(self.rows.header.time_fault_in(line, fault))
+        Some(self.rows.header.time_fault(line, &fault))
     }
 
     fn late_warning(&self) -> Option<String> {

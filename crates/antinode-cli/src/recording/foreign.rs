@@ -1,6 +1,7 @@
 //! Formats that are recognised by their first bytes but not read, each with the way to convert it.
 
 use super::content::has_control;
+use super::error::Fault;
 
 /// A format that is recognised but not read.
 #[derive(Debug, PartialEq, Eq)]
@@ -9,9 +10,9 @@ pub(super) struct Foreign {
     mark: &'static [u8],
     at: usize,
     /// The format in words, as after "this is".
-    pub kind: &'static str,
+    kind: &'static str,
     /// What to do, with `FILE` for its name.
-    pub remedy: &'static str,
+    remedy: &'static str,
 }
 
 /// Number of first bytes that identifies most of these formats.
@@ -134,6 +135,12 @@ const fn of(mark: &'static [u8], at: usize, kind: &'static str, remedy: &'static
 }
 
 impl Foreign {
+    /// The fault of a file of this format.
+    pub fn fault(&self) -> Fault {
+        let Self { kind, remedy, .. } = self;
+        Fault::new(format!("this is {kind}, which is not read; {remedy}"))
+    }
+
     /// How many of the first bytes are needed to identify a file, given the first few.
     pub fn head_bytes(few: &[u8]) -> usize {
         let is_more = few.starts_with(ZIP) || few.starts_with(LECROY);

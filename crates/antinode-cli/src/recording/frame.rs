@@ -2,6 +2,7 @@
 
 use super::columns::Columns;
 use super::error::Fault;
+use crate::digits::counted;
 
 /// The channels of a recording, and the places from 0 of S_C and S_D among them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,7 +23,15 @@ impl Frame {
         let Some(columns) = columns else {
             return match channels {
                 2 => Ok(Self::PAIR),
-                found => Err(Fault::Channels { found }),
+                found => Err(Fault::new(format!(
+                    "WAV header: found {}, but two are needed; {}",
+                    counted(found as u64, "channel"),
+                    if found < 2 {
+                        "put S_C on the left channel and S_D on the right, for example with `sox -M c.wav d.wav both.wav`"
+                    } else {
+                        "choose those of S_C and S_D, as in --columns 1,2"
+                    }
+                ))),
             };
         };
         let chosen = columns
@@ -33,10 +42,9 @@ impl Frame {
                 channels,
                 chosen: [c - 1, d - 1],
             }),
-            None => Err(Fault::ChannelChoice {
-                chosen: columns.to_string(),
-                channels,
-            }),
+            None => Err(Fault::new(format!(
+                "--columns {columns}: give the channel numbers of S_C and S_D, two different ones from 1 to {channels}"
+            ))),
         }
     }
 

@@ -3,8 +3,6 @@
 use std::collections::VecDeque;
 use std::num::NonZeroU32;
 
-use super::error::TimeFault;
-
 /// Number of gaps from which on equal distances between them are no chance.
 const MIN_REGULAR: u32 = 5;
 
@@ -85,16 +83,29 @@ impl Gaps {
     }
 
     /// The line of the first gap to be reported, and the fault that reports all.
-    pub fn fault(&self) -> Option<(u64, TimeFault)> {
+    pub fn fault(&self) -> Option<(u64, String)> {
         let first = self.first?;
-        let fault = TimeFault::Gap {
-            lost: first.gap.lost,
-            from: first.from,
-            to: first.to,
-            gaps: self.count,
-            all: self.lost,
-            every: self.every.filter(|_| self.count >= MIN_REGULAR),
+        let Found { gap, from, to, .. } = first;
+        let are_lost = if gap.lost == 1 {
+            "sample is"
+        } else {
+            "samples are"
         };
-        Some((first.line, fault))
+        let of_all = match self.count {
+            1 => String::new(),
+            gaps => format!(", the first of {gaps} gaps with {} samples", self.lost),
+        };
+        let every = self.every.filter(|_| self.count >= MIN_REGULAR);
+        let every = every.map_or(String::new(), |every| {
+            format!(
+                ", one every {every} samples, as if packets had their own time stamps and nothing were lost"
+            )
+        });
+        let told = format!(
+            "{} {are_lost} lost before this line (time goes from {from} s to {to} s){of_all}{every}; rows whose window spans a gap are \
+             missing, all others are good; record it again without loss",
+            gap.lost
+        );
+        Some((first.line, told))
     }
 }

@@ -1,7 +1,7 @@
 //! The header of a text recording: its columns and their units, from the first lines.
 
 use super::columns::{Columns, FirstLine, Places};
-use super::error::{Fault, LineFault, TimeFault};
+use super::error::Fault;
 use super::heading::is_header;
 use super::lines::{Beginning, Lines};
 use super::preamble::Start;
@@ -135,7 +135,7 @@ impl Header {
         let is_of_time = self.set_unit(line, &unit, &unit)?;
         // Brackets hold a unit: one that is not known cannot be taken for seconds.
         if !is_of_time && is_bracketed(&unit) {
-            return Err(self.time_fault_in(line, TimeFault::Unit { name: unit }));
+            return Err(self.unit_fault(line, &unit));
         }
         found.has_time |= is_of_time;
         let own = [1, 2].map(|role| self.field(lines, role));
@@ -161,8 +161,10 @@ impl Header {
         if let Some((unit, line)) = &start.unit
             && is_other(unit)
         {
-            let unit = unit.clone();
-            return Err(self.time_fault_in(*line as u64, TimeFault::UnitUnsure { unit }));
+            return Err(self.time_fault(*line as u64, &format!(
+                "the settings give the time in `{unit}`, but the time column has no unit; add the right one to its name above the samples, \
+                 as in `TIME [ms]`"
+            )));
         }
         let name = names.map(|names| &names[place]);
         let samples = self.samples();
@@ -186,8 +188,13 @@ impl Header {
                 "one of these units is not known, and both signals are read without conversion"
             }
             Together::Never => {
-                let units = found.signals;
-                return Err(Fault::line(found.line, LineFault::Units { units }));
+                return Err(Fault::line(
+                    found.line,
+                    format!(
+                        "S_C is in {c} and S_D in {d}, which have no common unit; record the same quantity twice, correct the units in the file, \
+                     or choose other columns with --columns"
+                    ),
+                ));
             }
         };
         self.warnings
@@ -203,10 +210,7 @@ impl Header {
                 self.exponent = exponent;
                 Ok(true)
             }
-            Some(None) => {
-                let name = name.to_owned();
-                Err(self.time_fault_in(line, TimeFault::Unit { name }))
-            }
+            Some(None) => Err(self.unit_fault(line, name)),
         }
     }
 
@@ -250,15 +254,23 @@ impl Header {
         format!("{c},{d}")
     }
 
-    /// The fault of a line whose time is at fault, with the columns to read without it.
-    pub fn time_fault(&self, fault: TimeFault) -> LineFault {
-        let samples = self.samples();
-        LineFault::Time { fault, samples }
+    /// The fault of a time whose unit is none of those that are read; `name` stands for the column.
+    fn unit_fault(&self, line: u64, name: &str) -> Fault {
+        self.time_fault(
+            line,
+            &format!("the time column `{name}` is not in s, ms, us or ns; convert it to seconds"),
+        )
     }
 
-    /// The same with the line's number.
-    pub fn time_fault_in(&self, line: u64, fault: TimeFault) -> Fault {
-        Fault::line(line, self.time_fault(fault))
+    /// The fault of a line whose time is at fault.
+    pub fn time_fault(&self, line: u64, told: &str) -> Fault {
+        Fault::line(line, self.or_ignore_time(told))
+    }
+
+    /// What is wrong with a time, with the columns to read without it.
+    pub fn or_ignore_time(&self, told: &str) -> String {
+        let samples = self.samples();
+        format!("{told}, or ignore the time column with --columns {samples} --rate HZ")
     }
 }
 

@@ -3,7 +3,7 @@
 use std::io::{BufRead, BufReader, Chain, Cursor, Read};
 
 use super::Stream;
-use super::error::{Fault, LineFault};
+use super::error::Fault;
 use super::preamble::{self, STEADY_LINES, Start};
 use super::quoted::{self, has_decimal_commas};
 use super::text::{self, LineEnds, MAX_LINE, bare};
@@ -107,7 +107,7 @@ impl Lines {
             }
             self.number += 1;
             if read == MAX_LINE {
-                return Err(Fault::line(self.number, LineFault::LineTooLong));
+                return Err(Fault::line_too_long(self.number));
             }
             self.line.pop_if(|last| *last == b'\n');
             if self.is_quoted {

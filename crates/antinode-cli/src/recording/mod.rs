@@ -42,13 +42,15 @@ pub use by_content::OpenOptions;
 use codes::Lowest;
 pub use columns::Columns;
 use error::Fault;
-pub use error::{Channel, InputError, STANDARD_INPUT};
+pub use error::{STANDARD_INPUT, unreadable};
 pub use gaps::Gap;
 use not_finite::NotFinite;
 pub use sample::Kind;
 use source::{Counted, Known, Opened, Source, Stream};
 pub use source::{extension, in_utf8, open_file};
-pub use write::{OutputError, OutputFault, RecordingWriter, SampleFormat, WholeFile};
+pub use write::{RecordingWriter, SampleFormat};
+
+use crate::failure::Failure;
 
 /// Capacity, in pairs, given to a buffer that has none: small enough to stay in the cache.
 pub const BLOCK_PAIRS: usize = 1 << 14;
@@ -76,12 +78,12 @@ pub struct Recording {
 
 impl Recording {
     /// Opens a file or pipe by its content or else its extension, or standard input if `path` is `-`.
-    pub fn open(path: &Path, options: &OpenOptions) -> Result<Self, InputError> {
+    pub fn open(path: &Path, options: &OpenOptions) -> Result<Self, Failure> {
         if path == Path::new("-") {
             return Self::standard_input(options);
         }
         let name = path.display().to_string();
-        let io = |fault| InputError::io(&name, fault);
+        let io = |fault| unreadable(&name, fault);
         let file = open_file(path)?;
         let metadata = file.metadata().map_err(io)?;
         let length = metadata.is_file().then_some(metadata.len());
@@ -96,12 +98,15 @@ impl Recording {
         Self::of_stream(name, Box::new(file), known, options)
     }
 
-    fn standard_input(options: &OpenOptions) -> Result<Self, InputError> {
+    fn standard_input(options: &OpenOptions) -> Result<Self, Failure> {
         let name = STANDARD_INPUT.to_owned();
         let stdin = io::stdin();
         let is_described = options.raw.is_some() || options.columns.is_some();
         if !is_described && stdin.is_terminal() {
-            return Err(InputError::new(&name, Fault::Terminal));
+            return Err(Fault::new(
+                "this is a terminal; pipe a recording into the command, or name a file",
+            )
+            .of(&name));
         }
         Self::of_stream(name, Box::new(stdin), Known::default(), options)
     }
@@ -111,7 +116,7 @@ impl Recording {
         stream: Stream,
         known: Known,
         options: &OpenOptions,
-    ) -> Result<Self, InputError> {
+    ) -> Result<Self, Failure> {
         let (length, bytes_read) = (known.length, Rc::clone(&known.read));
         let count = Rc::clone(&known.read);
         let stream = Box::new(Counted { stream, count });
@@ -120,7 +125,7 @@ impl Recording {
                 bytes_read,
                 ..Self::new(name, opened, length)
             }),
-            Err(fault) => Err(InputError::new(&name, fault)),
+            Err(fault) => Err(fault.of(&name)),
         }
     }
 
@@ -227,20 +232,21 @@ impl Recording {
     }
 
     /// The error for those of the samples looked at so far that are not finite numbers, if any are.
-    pub fn not_finite(&self) -> Option<InputError> {
+    pub fn not_finite(&self) -> Option<Failure> {
         let first = self.not_finite.first.as_ref()?;
         // The first that the source met may be none of those looked at.
         let written = self.opened.source.not_finite();
         let first = written
             .filter(|written| written.pair == first.pair)
             .unwrap_or(first);
-        let fault = Fault::NotFinite {
-            place: first.place,
-            pair: first.pair,
-            told: first.description.clone(),
-            count: self.not_finite.count,
-        };
-        Some(InputError::new(&self.name, fault))
+        let told = format!(
+            "sample pair {} (from 0), {}{}; \
+             rows whose window contains one are flagged or missing, all others are good; check the instrument or program that wrote it",
+            first.pair,
+            first.description,
+            first_of(self.not_finite.count)
+        );
+        Some(Fault::at(first.place, told).of(&self.name))
     }
 
     /// The next gap in the samples' own time; each gap among delivered pairs must be passed by [`pass_gap`](Self::pass_gap), in order.
@@ -254,16 +260,15 @@ impl Recording {
     }
 
     /// The error for the gaps passed so far that are to be reported and for the lines left out, if there are any.
-    pub fn lost(&self) -> Option<InputError> {
-        let fault = self.opened.source.lost()?;
-        Some(InputError::new(&self.name, fault))
+    pub fn lost(&self) -> Option<Failure> {
+        Some(self.opened.source.lost()?.of(&self.name))
     }
 
     /// Clears `buffer` and fills it to its capacity with the next pairs [S_C, S_D]; `Ok(0)` at the end.
     ///
     /// A pipe gives what is there instead of waiting for more. All good pairs before a fault are delivered first; the next call gives the
     /// error, and those after it `Ok(0)`. Samples that are not finite numbers are delivered as they are: [`look`](Self::look) finds them.
-    pub fn read(&mut self, buffer: &mut Vec<[f32; 2]>) -> Result<usize, InputError> {
+    pub fn read(&mut self, buffer: &mut Vec<[f32; 2]>) -> Result<usize, Failure> {
         buffer.clear();
         if buffer.capacity() == 0 {
             buffer.reserve_exact(BLOCK_PAIRS);
@@ -276,7 +281,7 @@ impl Recording {
         if buffer.is_empty() {
             self.ended = true;
             let fault = self.fault.take();
-            return fault.map_or(Ok(0), |fault| Err(InputError::new(&self.name, fault)));
+            return fault.map_or(Ok(0), |fault| Err(fault.of(&self.name)));
         }
         Ok(buffer.len())
     }
@@ -290,6 +295,14 @@ impl Recording {
             Some(lowest) => lowest.look(pairs),
             None => self.not_finite.look(before, pairs),
         }
+    }
+}
+
+/// The words for a fault that is the first of so many; none if it is the only one.
+fn first_of(count: u64) -> String {
+    match count {
+        1 => String::new(),
+        count => format!(", the first of {count}"),
     }
 }
 

@@ -36,19 +36,19 @@ pub(super) fn open(
     columns: Option<&Columns>,
 ) -> Result<Opened, Fault> {
     let text = header_text(&mut stream)?;
-    let damaged = || Fault::NpyHeader {
-        fault: "it cannot be understood",
-    };
-    let header = NpyHeader::from_reader(text.as_slice()).map_err(|_| damaged())?;
+    let not_understood = || damaged("it cannot be understood");
+    let header = NpyHeader::from_reader(text.as_slice()).map_err(|_| not_understood())?;
     let code = code(&header.dtype())?;
     let (pairs, channels, is_interleaved) = layout(&header, columns.is_some())?;
     let frame = Frame::choose(usize::try_from(channels).unwrap_or(usize::MAX), columns)?;
     if pairs == 0 {
-        return Err(Fault::NoPairs);
+        return Err(Fault::no_pairs());
     }
     let start = text.len() as u64;
     let size = code.sample_bytes() as u64;
-    let bytes = pairs.checked_mul(channels * size).ok_or_else(damaged)?;
+    let bytes = pairs
+        .checked_mul(channels * size)
+        .ok_or_else(not_understood)?;
     let available = length.map_or(bytes, |length| bytes.min(length.saturating_sub(start)));
     let (source, there): (Box<dyn Source>, u64) = if is_interleaved {
         let source = Interleaved::new(stream, code, frame, length.is_none());
@@ -57,7 +57,12 @@ pub(super) fn open(
             available / (channels * size),
         )
     } else {
-        let again = again.ok_or(Fault::NpyPipe)?;
+        let again = again.ok_or_else(|| {
+            Fault::new(
+                "the array holds all of S_C before S_D, which cannot be read from a pipe; name the file instead, or save \
+                 `numpy.stack([c, d], axis=1)` in C order",
+            )
+        })?;
         let [c, d] = frame.chosen.map(|place| place as u64 * pairs * size);
         let there = (available.saturating_sub(c.max(d)) / size).min(pairs);
         let planes = Planes {
@@ -87,19 +92,28 @@ fn layout(header: &NpyHeader, are_chosen: bool) -> Result<(u64, u64, bool), Faul
             (one > other) == (order == Order::C),
         ),
         (shape, _) => {
-            let shape = shown(shape);
-            return Err(Fault::NpyShape { shape });
+            return Err(Fault::new(format!(
+                "NPY header: the shape is {}, but (N, 2) is needed; of more channels \
+                 choose two, as in --columns 2,3 if the first is the time, or save `numpy.stack([c, d], axis=1)`",
+                shown(shape)
+            )));
         }
     })
 }
 
+/// The fault of a damaged header.
+fn damaged(fault: &str) -> Fault {
+    Fault::new(format!(
+        "NPY header: {fault}; save it again with `numpy.save`"
+    ))
+}
+
 /// Reads the header, and refuses one that would harm its parser.
 fn header_text(stream: &mut Stream) -> Result<Vec<u8>, Fault> {
-    let fault = |fault| Fault::NpyHeader { fault };
     let mut text = Vec::new();
     let mut read = |text: &mut Vec<u8>, count: usize| {
         if stream.take(count as u64).read_to_end(text)? < count {
-            Err(fault("the file ends inside it"))
+            Err(damaged("the file ends inside it"))
         } else {
             Ok(())
         }
@@ -113,7 +127,7 @@ fn header_text(stream: &mut Stream) -> Result<Vec<u8>, Fault> {
         }
     };
     if size > MAX_HEADER {
-        return Err(fault("it is too long for an array of numbers"));
+        return Err(damaged("it is too long for an array of numbers"));
     }
     let start = text.len();
     read(&mut text, size)?;
@@ -135,15 +149,19 @@ fn header_text(stream: &mut Stream) -> Result<Vec<u8>, Fault> {
             product.checked_mul(number.max(1))
         });
     if deepest > MAX_DEPTH || product.is_none() {
-        return Err(fault("it cannot be that of an array of numbers"));
+        return Err(damaged("it cannot be that of an array of numbers"));
     }
     Ok(text)
 }
 
 /// How samples of this number type are stored.
 fn code(dtype: &DType) -> Result<SampleCode, Fault> {
-    let refused = || Fault::NpyType {
-        dtype: dtype.descr(),
+    let refused = || {
+        Fault::new(format!(
+            "NPY header: the dtype is {}, but u1, i1, u2, i2, i4, f4 or f8 is needed; save \
+             `numpy.stack([c, d], axis=1).astype('f4')`",
+            dtype.descr()
+        ))
     };
     let DType::Plain(plain) = dtype else {
         return Err(refused());
@@ -222,7 +240,7 @@ impl Source for Planes {
             if count == 0 {
                 let (promised, found) = (self.promised, self.there);
                 return if found < promised {
-                    Err(Fault::Truncated { promised, found })
+                    Err(Fault::truncated(promised, found))
                 } else {
                     Ok(())
                 };

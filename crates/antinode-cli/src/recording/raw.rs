@@ -51,14 +51,19 @@ pub(super) fn open(
 fn frame(options: &OpenOptions) -> Result<Frame, Fault> {
     let channels = options.channels.unwrap_or(2);
     if channels != 2 && options.columns.is_none() {
-        return Err(Fault::RawChannels { channels });
+        return Err(Fault::new(format!(
+            "there are {channels} interleaved channels (--channels), but two are needed; choose those of S_C and S_D, as in --columns 1,2"
+        )));
     }
-    Frame::choose(channels, options.columns.as_ref()).map_err(|fault| match fault {
-        Fault::ChannelChoice { chosen, .. } if options.channels.is_none() => {
-            Fault::RawChoice { chosen }
-        }
-        fault => fault,
-    })
+    let frame = Frame::choose(channels, options.columns.as_ref());
+    match &options.columns {
+        // Two channels are only assumed.
+        Some(chosen) if frame.is_err() && options.channels.is_none() => Err(Fault::new(format!(
+            "--columns {chosen}: raw samples have two channels unless --channels gives another number; choose 1,2 or 2,1, or give \
+             --channels too"
+        ))),
+        _ => frame,
+    }
 }
 
 impl Interleaved {
@@ -136,16 +141,22 @@ impl Interleaved {
         match &header[..4] {
             _ if header == [0; CHUNK_HEADER] => None,
             // As `cat` joins files.
-            b"RIFF" | b"RF64" | b"BW64" => Some(Fault::AnotherWav { found: self.pairs }),
+            b"RIFF" | b"RF64" | b"BW64" => Some(Fault::new(format!(
+                "after {} sample pairs another WAV file begins, which is not read; WAV files cannot be joined by `cat`, but by \
+                 `sox part1.wav part2.wav whole.wav`",
+                self.pairs
+            ))),
             name if name
                 .iter()
                 .all(|byte| byte.is_ascii_graphic() || *byte == b' ') =>
             {
                 None
             }
-            _ => Some(Fault::MoreData {
-                promised: self.promised?,
-            }),
+            _ => Some(Fault::new(format!(
+                "the WAV header promises {} sample pairs, but more follow, which are not read: the header was never completed, or \
+                 cannot hold so large a number; correct it, for example with `sox --ignore-length FILE whole.wav`",
+                self.promised?
+            ))),
         }
     }
 
@@ -155,12 +166,16 @@ impl Interleaved {
         }
         let found = self.pairs;
         match self.promised {
-            Some(promised) if found < promised => Err(Fault::Truncated { promised, found }),
-            _ if self.begun > 0 => Err(Fault::HalfPair {
-                found,
-                channels: self.frame.channels,
-            }),
-            _ if found == 0 => Err(Fault::NoPairs),
+            Some(promised) if found < promised => Err(Fault::truncated(promised, found)),
+            _ if self.begun > 0 => Err(Fault::new(format!(
+                "sample pair {found} (from 0): the data end in the middle of it; check that they hold {} channels \
+                 in the stated sample format, and that the recording was not cut off",
+                match self.frame.channels {
+                    2 => "both".to_owned(),
+                    channels => format!("all {channels}"),
+                }
+            ))),
+            _ if found == 0 => Err(Fault::no_pairs()),
             _ => Ok(()),
         }
     }

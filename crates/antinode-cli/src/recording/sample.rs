@@ -2,7 +2,7 @@
 
 use clap::ValueEnum;
 
-use super::error::{Channel, Fault};
+use super::error::{CHANNELS, Fault};
 
 /// How one sample is stored: of raw ones little-endian, the channels in turn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -145,12 +145,12 @@ impl SampleCode {
         };
         pairs.truncate(start + index / 2);
         let (valid, container) = self.bits();
-        Err(Fault::Padding {
-            pair: before + index as u64 / 2,
-            channel: channel_at(index),
-            valid,
-            container,
-        })
+        Err(Fault::new(format!(
+            "sample pair {} (from 0), {}: bits are set below the {valid} valid ones of a \
+             {container}-bit sample, so its scale is unknown; export it as plain {container}-bit PCM",
+            before + index as u64 / 2,
+            channel_at(index)
+        )))
     }
 
     /// The index of the first sample with bits set below its valid ones, which only little-endian WAV files can have.
@@ -184,12 +184,8 @@ fn bytes(kind: Kind) -> usize {
 }
 
 /// The channel of the sample at `index` among those of both.
-pub(super) fn channel_at(index: usize) -> Channel {
-    if index.is_multiple_of(2) {
-        Channel::C
-    } else {
-        Channel::D
-    }
+pub(super) fn channel_at(index: usize) -> &'static str {
+    CHANNELS[index % 2]
 }
 
 fn scale_16(code: i16) -> f32 {

@@ -8,10 +8,11 @@ use std::rc::Rc;
 
 use encoding_rs_io::DecodeReaderBytesBuilder;
 
-use super::error::{Fault, InputError};
+use super::error::{Fault, unreadable};
 use super::gaps::Gap;
 use super::not_finite::Flaw;
 use super::sample::SampleCode;
+use crate::failure::Failure;
 
 /// Bytes that show UTF-16 without a byte order mark: as many as the shortest recording has, `1,2` and an end of line.
 const UNMARKED_BYTES: usize = 8;
@@ -20,14 +21,13 @@ const UNMARKED_BYTES: usize = 8;
 pub(super) type Stream = Box<dyn Read>;
 
 /// Opens a file or a pipe by its path; a directory is neither.
-pub fn open_file(path: &Path) -> Result<File, InputError> {
+pub fn open_file(path: &Path) -> Result<File, Failure> {
     let file = path.display().to_string();
     match fs::metadata(path) {
-        Ok(metadata) if metadata.is_dir() => Err(InputError::new(&file, Fault::Directory)),
-        found => found
-            .and_then(|_| File::open(path))
-            .map_err(|fault| InputError::io(&file, fault)),
+        Ok(metadata) if metadata.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
+        found => found.and_then(|_| File::open(path)),
     }
+    .map_err(|fault| unreadable(&file, fault))
 }
 
 /// The ending of a file's name, in lower case; empty if there is none.

@@ -31,7 +31,7 @@ impl Read for Dribble {
 }
 
 /// All pairs up to the end or the first fault, after which there must be nothing more.
-pub(super) fn drain(recording: &mut Recording) -> (Vec<[f32; 2]>, Option<InputError>) {
+pub(super) fn drain(recording: &mut Recording) -> (Vec<[f32; 2]>, Option<Failure>) {
     let (mut all, mut block) = (Vec::new(), Vec::with_capacity(13));
     let fault = loop {
         match recording.read(&mut block) {
@@ -53,7 +53,7 @@ pub(super) fn drain(recording: &mut Recording) -> (Vec<[f32; 2]>, Option<InputEr
 }
 
 /// The text of a fault, which must be there.
-pub(super) fn message(fault: Option<InputError>) -> String {
+pub(super) fn message(fault: Option<Failure>) -> String {
     fault.map(|fault| fault.to_string()).expect("a fault")
 }
 
@@ -126,7 +126,7 @@ fn a_path_that_leads_to_no_recording_is_named() {
 
 #[test]
 fn a_file_that_may_not_be_read_is_named() {
-    let fault = InputError::io("a.wav", io::ErrorKind::PermissionDenied.into());
+    let fault = unreadable("a.wav", io::ErrorKind::PermissionDenied.into());
     assert!(
         fault
             .to_string()
@@ -289,7 +289,7 @@ fn a_stream_needs_a_format_unless_it_is_a_file() {
         let stream = Box::new(Cursor::new(bytes.to_vec()));
         by_content::open(stream, Known::default(), &options)
             .map(|opened| opened.integers)
-            .map_err(|fault| InputError::new(STANDARD_INPUT, fault))
+            .map_err(|fault| fault.of(STANDARD_INPUT))
     };
     assert!(open(b"abcd", Some(Kind::F32)).is_ok());
     let fault = |bytes, raw| message(open(bytes, raw).err());

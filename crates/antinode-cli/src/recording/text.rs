@@ -4,7 +4,7 @@ use std::io::{self, BufRead, Read};
 
 use super::Stream;
 use super::columns::is_time;
-use super::error::{Fault, LineFault};
+use super::error::Fault;
 
 /// Longest line read, bytes: a few numbers need less, and a file without ends of line must not fill the memory.
 pub(super) const MAX_LINE: usize = 1 << 16;
@@ -90,10 +90,8 @@ pub(super) fn first_line(stream: &mut impl BufRead) -> Result<(Vec<u8>, u64), Fa
             .take(MAX_LINE as u64)
             .read_until(b'\n', &mut line);
         match read? {
-            0 => return Err(Fault::NoPairs),
-            MAX_LINE => {
-                return Err(Fault::line(number, LineFault::LineTooLong));
-            }
+            0 => return Err(Fault::no_pairs()),
+            MAX_LINE => return Err(Fault::line_too_long(number)),
             _ => {}
         }
         if number == 1 {

@@ -2,7 +2,6 @@
 
 mod late;
 
-use super::error::TimeFault;
 use super::printed::Printed;
 use crate::digits::significant;
 use crate::median::median;
@@ -171,7 +170,7 @@ impl TimeAxis {
     }
 
     /// Checks the time of the next line: gives the number of samples lost before it, or how it breaks the rate.
-    pub fn check(&mut self, now: f64, printed: Printed) -> Result<u64, TimeFault> {
+    pub fn check(&mut self, now: f64, printed: Printed) -> Result<u64, String> {
         let step = now - self.last;
         let printed = printed.step(now);
         let rounding = printed.max(self.rounding) / self.step;
@@ -197,7 +196,9 @@ impl TimeAxis {
         };
         if is_off(self.step, self.uncertainty) {
             let (from, to) = (1.0 / self.step, lines / length);
-            return Err(TimeFault::Drift { from, to });
+            return Err(format!(
+                "the sample rate has changed from {from:.3} Hz to {to:.3} Hz; sample at a constant rate, resample the recording to one"
+            ));
         }
         if is_off(1.0 / self.rate, self.rate_uncertainty) {
             self.drifted = Some(lines / length);
@@ -211,23 +212,22 @@ impl TimeAxis {
     }
 
     /// The number of samples lost before a time that is off, or what else is wrong with it.
-    fn lost(&self, now: f64, rounding: f64) -> Result<u64, TimeFault> {
+    fn lost(&self, now: f64, rounding: f64) -> Result<u64, String> {
         let (from, to, usual) = (self.last, now, self.step);
         let step = to - from;
         let samples = step / usual;
         let tolerance =
             STEP_TOLERANCE + rounding.min(MAX_ROUNDING) + samples * self.uncertainty / usual;
         if rounding > MAX_ROUNDING && rounding * usual > self.harmless {
-            Err(TimeFault::Coarse {
-                told: rounding * usual,
-                usual,
-            })
+            Err(coarse(rounding * usual, usual))
         } else if step <= 0.0 {
-            Err(TimeFault::Backwards { from, to })
+            Err(backwards(from, to))
         } else if samples > 1.5 && (samples - samples.round()).abs() <= tolerance {
             Ok(samples.round() as u64 - 1)
         } else {
-            Err(TimeFault::Uneven { step, usual })
+            Err(format!(
+                "time steps by {step:.4e} s here, but by {usual:.4e} s elsewhere; sample at a constant rate, resample the recording to one"
+            ))
         }
     }
 }
@@ -243,19 +243,31 @@ pub(super) fn are_paired(times: &[f64]) -> bool {
 }
 
 /// The index of the first of `times` that does not go up, and its fault.
-pub(super) fn standstill(times: &[f64], printed: Printed) -> Option<(usize, TimeFault)> {
+pub(super) fn standstill(times: &[f64], printed: Printed) -> Option<(usize, String)> {
     let at = 1 + times.windows(2).position(|pair| pair[1] <= pair[0])?;
     let (from, to) = (times[at - 1], times[at]);
     let usual = (times.last()? - times.first()?) / (times.len() - 1) as f64;
     let fault = if from == to && usual > 0.0 {
-        TimeFault::Coarse {
-            told: printed.step(to),
-            usual,
-        }
+        coarse(printed.step(to), usual)
     } else {
-        TimeFault::Backwards { from, to }
+        backwards(from, to)
     };
     Some((at, fault))
+}
+
+/// What is wrong with times printed with too few digits.
+fn coarse(step: f64, usual: f64) -> String {
+    format!(
+        "times are given to {step:.0e} s only, too coarse for samples {usual:.4e} s apart; print more digits, and keep times in double precision"
+    )
+}
+
+/// What is wrong if time stands still or runs backwards.
+fn backwards(from: f64, to: f64) -> String {
+    format!(
+        "time goes from {from} s to {to} s, but must increase, and what follows is not read; sort the lines, cut the recording here, \
+         print times with more digits"
+    )
 }
 
 /// The number of fewest digits within `uncertainty` of `value`.

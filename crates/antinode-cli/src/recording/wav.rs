@@ -199,8 +199,10 @@ impl Reader {
             (3, 32) => Kind::F32,
             (3, 64) => Kind::F64,
             _ => {
-                let encoding = encoding(tag, bits);
-                return Err(Fault::WavEncoding { encoding });
+                return Err(Fault::new(format!(
+                    "WAV header: the samples are {}; export them as 16, 24 or 32-bit PCM or 32-bit float",
+                    encoding(tag, bits)
+                )));
             }
         };
         let code = SampleCode::new(kind);
@@ -214,7 +216,7 @@ impl Reader {
             let fault = format!(
                 "{valid} valid of {bits} bits in {channels} channels do not fit a frame of {frame} bytes"
             );
-            return Err(damaged(fault));
+            return Err(damaged(&fault));
         }
         let rate = u32::from_le_bytes([chunk[4], chunk[5], chunk[6], chunk[7]]);
         Ok(Format {
@@ -226,9 +228,10 @@ impl Reader {
 }
 
 /// The fault of a damaged header.
-fn damaged(fault: impl Into<String>) -> Fault {
-    let fault = fault.into();
-    Fault::WavHeader { fault }
+fn damaged(fault: &str) -> Fault {
+    Fault::new(format!(
+        "WAV header: {fault}; record or export it again as 16, 24 or 32-bit PCM or 32-bit float"
+    ))
 }
 
 /// The name of an encoding that is not read.

@@ -1,16 +1,15 @@
 //! Writing of recordings as WAV, text and NPY files, which appear under their name only once they are complete.
 
 mod encode;
-mod error;
-mod whole;
 
 use std::path::Path;
 
-use super::{Channel, extension};
+use super::error::CHANNELS;
+use super::extension;
+use crate::failure::{Failure, unknown_extension, unwritable};
+use crate::whole_file::WholeFile;
 pub use encode::SampleFormat;
 use encode::{Format, Output};
-pub use error::{OutputError, OutputFault};
-pub use whole::WholeFile;
 
 /// Writes pairs of samples to a file, which takes its name only in [`finish`](Self::finish).
 pub struct RecordingWriter {
@@ -23,22 +22,17 @@ pub struct RecordingWriter {
 
 impl RecordingWriter {
     /// Begins a `.wav`, `.csv` or `.npy` file; whatever is at `path` stays there until it is finished.
-    pub fn create(path: &Path, rate: f64, sample: SampleFormat) -> Result<Self, OutputError> {
+    pub fn create(path: &Path, rate: f64, sample: SampleFormat) -> Result<Self, Failure> {
         let file = path.display().to_string();
-        let error = |fault| OutputError::new(&file, fault);
         let Some(format) = Format::of(&extension(path)) else {
-            let endings = ".wav, .csv or .npy";
-            return Err(error(OutputFault::Unknown { endings }));
+            return Err(unknown_extension(&file, ".wav, .csv or .npy"));
         };
-        if let Err(remedy) = format.check_rate(rate, sample) {
-            return Err(error(OutputFault::Rate { rate, remedy }));
-        }
-        if format == Format::Wav && sample == SampleFormat::F64 {
-            return Err(error(OutputFault::Wav64));
-        }
+        format
+            .check(rate, sample)
+            .map_err(|told| Failure::Usage(format!("{file}: {told}")))?;
         let (whole, output) = WholeFile::create(path)?;
         let output = Output::begin(format, output, rate, sample)
-            .map_err(|fault| error(OutputFault::Io(fault)))?;
+            .map_err(|fault| unwritable(&file, &fault))?;
         Ok(Self {
             whole,
             sample,
@@ -49,42 +43,38 @@ impl RecordingWriter {
     }
 
     /// Writes S_C and S_D: integers rounded to the nearest code and held at the rails, floats as they are.
-    pub fn write(&mut self, pair: [f64; 2]) -> Result<(), OutputError> {
-        let [Some(c), Some(d)] = pair.map(|value| self.sample.store(value)) else {
-            return Err(self.error(self.not_finite(pair)));
+    pub fn write(&mut self, pair: [f64; 2]) -> Result<(), Failure> {
+        let stored = pair.map(|value| self.sample.store(value));
+        let [Some(c), Some(d)] = stored else {
+            let channel = usize::from(stored[0].is_some());
+            return Err(self.error(format!(
+                "sample pair {} (from 0), {}: {} is not a finite number; correct the values that it is computed from",
+                self.pairs, CHANNELS[channel], pair[channel]
+            )));
         };
         if self.output.is_full(self.sample, self.pairs) {
-            return Err(self.error(OutputFault::Full { pairs: self.pairs }));
+            return Err(self.error(format!(
+                "after {} sample pairs: a WAV file holds no more than 4 GiB; write a .npy file, or fewer pairs",
+                self.pairs
+            )));
         }
         let seconds = self.pairs as f64 / self.rate;
         let written = self.output.write(self.sample, seconds, [c, d]);
-        written.map_err(|fault| self.error(OutputFault::Io(fault)))?;
+        written.map_err(|fault| unwritable(self.whole.name(), &fault))?;
         self.pairs += 1;
         Ok(())
     }
 
     /// Completes the file and gives it its name; dropped without this, it leaves nothing behind.
-    pub fn finish(self) -> Result<(), OutputError> {
+    pub fn finish(self) -> Result<(), Failure> {
         self.output
             .finish(self.sample, self.pairs)
-            .map_err(|fault| OutputError::io(self.whole.name(), fault))?;
+            .map_err(|fault| unwritable(self.whole.name(), &fault))?;
         self.whole.finish()
     }
 
-    fn error(&self, fault: OutputFault) -> OutputError {
-        OutputError::new(self.whole.name(), fault)
-    }
-
-    fn not_finite(&self, [c, d]: [f64; 2]) -> OutputFault {
-        let (channel, value) = match self.sample.store(c) {
-            None => (Channel::C, c),
-            Some(_) => (Channel::D, d),
-        };
-        OutputFault::NotFinite {
-            pair: self.pairs,
-            channel,
-            value,
-        }
+    fn error(&self, told: String) -> Failure {
+        Failure::Fault(format!("{}: {told}", self.whole.name()))
     }
 }
 

@@ -12,7 +12,7 @@ use plotters::prelude::*;
 use super::figure::{Curve, Figure, Name, Panel};
 use crate::canvas::{self, FONT};
 use crate::digits::significant;
-use crate::recording::OutputError;
+use crate::failure::{Failure, unwritable};
 
 /// Width and height, pixels.
 const SIZE: (u32, u32) = (960, 600);
@@ -24,10 +24,10 @@ const KEY_WIDTH: u32 = 220;
 const DASH: (u32, u32) = (7, 5);
 
 /// Writes `path`.svg and `path`.png.
-pub fn write(path: &Path, figure: &Figure, panel: &Panel) -> Result<(), OutputError> {
+pub fn write(path: &Path, figure: &Figure, panel: &Panel) -> Result<(), Failure> {
     canvas::register_fonts();
     let [svg, png] = ["svg", "png"].map(|ending| path.with_extension(ending));
-    let failed = |path: &Path, fault| OutputError::io(&path.display().to_string(), fault);
+    let failed = |path: &Path, fault| unwritable(&path.display().to_string(), &fault);
     let mut text = String::new();
     draw(
         &SVGBackend::with_string(&mut text, SIZE).into_drawing_area(),

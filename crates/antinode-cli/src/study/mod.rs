@@ -19,9 +19,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::failure::Failure;
+use crate::failure::{Failure, unwritable};
 use crate::ranges;
-use crate::recording::OutputError;
 use simulated::Simulated;
 
 /// Text after the help of the study.
@@ -72,7 +71,7 @@ pub fn run(options: &Study) -> Result<(), Failure> {
     for figure in [&first, &second, &third] {
         let path = options.out.join(format!("figure-{}.csv", figure.number));
         table::write(&path, figure, &simulated.wave())
-            .map_err(|error| OutputError::io(&path.display().to_string(), error.into()))?;
+            .map_err(|error| unwritable(&path.display().to_string(), &error.into()))?;
         for panel in &figure.panels {
             let path = options
                 .out

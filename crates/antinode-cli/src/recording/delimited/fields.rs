@@ -1,6 +1,6 @@
 //! The fields of a line, and which of them can be trusted.
 
-use super::super::error::{Fault, LineFault, Place, Role, TimeFault};
+use super::super::error::{Fault, Place, ROLES, TIME};
 use super::super::header::Header;
 use super::super::lines::Lines;
 use crate::digits::counted;
@@ -27,14 +27,20 @@ pub(super) fn cut<'a>(lines: &'a Lines, header: &Header) -> Fields<'a> {
     }
     // A single separator at the end of a line does not begin another field.
     let is_long = count > header.width + usize::from(last_is_blank);
-    let mut roles = 0..Role::ALL.len();
+    let mut roles = 0..ROLES.len();
     let short = roles.find(|&role| header.places[role].is_some() && found[role].is_none());
     let fault = if is_long {
-        let fault = LineFault::FieldCount {
-            found: count,
-            expected: header.width,
+        let names = if count == header.width + 1 {
+            ", and write no row names (in R `row.names = FALSE`)"
+        } else {
+            ""
         };
-        Some(Fault::line(lines.number(), fault))
+        let told = format!(
+            "found {count} fields where the first line has {}; use another separator \
+             than the decimal mark, and the same one in every line{names}",
+            header.width
+        );
+        Some(Fault::line(lines.number(), told))
     } else {
         short.map(|role| missing(header, place(lines, header, role), role))
     };
@@ -64,9 +70,13 @@ pub(super) fn place(lines: &Lines, header: &Header, role: usize) -> Place {
 
 /// The fault of a line without a field of this `role`.
 pub(super) fn missing(header: &Header, place: Place, role: usize) -> Fault {
-    let fault = match Role::ALL[role] {
-        Role::Time => header.time_fault(TimeFault::Missing),
-        role => LineFault::FieldMissing { role },
+    let told = format!(
+        "{} is missing here; complete or delete the line",
+        ROLES[role]
+    );
+    let told = match role {
+        TIME => header.or_ignore_time(&told),
+        _ => told,
     };
-    Fault::Line { place, fault }
+    Fault::at(Some(place), told)
 }

@@ -2,7 +2,7 @@
 
 use super::super::Stream;
 use super::super::columns::Columns;
-use super::super::error::{Fault, LineFault, Place, Role, TimeFault};
+use super::super::error::{CHANNELS, Fault, Place, ROLES, TIME};
 use super::super::forms::remedy;
 use super::super::header::{Header, lossy};
 use super::super::left_out::LeftOut;
@@ -147,7 +147,7 @@ impl Rows {
         let description = match broken {
             Some(broken) if role == 0 => broken,
             Some(broken) => format!("{broken}, so a sample is missing"),
-            None => describe(Role::ALL[role], text, read),
+            None => describe(role, text, read),
         };
         Flaw {
             pair: self.pairs,
@@ -180,29 +180,30 @@ impl Rows {
             return missing(&self.header, self.place(role), role);
         }
         let text = shown(text);
-        let fault = match Role::ALL[role] {
-            Role::Time if remedy(&text).is_none() => {
-                self.header.time_fault(TimeFault::Number { text })
-            }
-            role => LineFault::Number { role, text },
+        let told = match (role, remedy(&text)) {
+            (TIME, None) => self.header.or_ignore_time(&format!(
+                "the time is `{text}`, not a finite number; give it in seconds, delete the line, or begin it with # if it is a comment"
+            )),
+            (role, remedy) => format!(
+                "{} is `{text}`, not a number; {}",
+                ROLES[role],
+                remedy.unwrap_or("correct or delete the line, or begin it with # if it is a comment")
+            ),
         };
-        Fault::Line {
-            place: self.place(role),
-            fault,
-        }
+        Fault::at(Some(self.place(role)), told)
     }
 }
 
 /// Describes a field that is no finite number; `read` is the NaN or infinity that it was read as, if any.
-fn describe(role: Role, text: &[u8], read: Option<f32>) -> String {
+fn describe(role: usize, text: &[u8], read: Option<f32>) -> String {
     let value = match read {
         _ if text.is_empty() => "missing".to_owned(),
         Some(read) => format!("{read}, not a finite number"),
         None => format!("`{}`, not a finite number", shown(text)),
     };
     match role {
-        Role::Time => format!("the time is {value}"),
-        Role::Signal(channel) => format!("{channel}: the value is {value}"),
+        TIME => format!("the time is {value}"),
+        signal => format!("{}: the value is {value}", CHANNELS[signal - 1]),
     }
 }
 

@@ -4,7 +4,7 @@ use std::io::Cursor;
 
 use super::super::columns::Columns;
 use super::super::tests::{message, raw, read, read_with};
-use super::super::{InputError, Kind, OpenOptions, by_content, source::Known};
+use super::super::{Kind, OpenOptions, by_content, source::Known};
 use super::*;
 
 /// The beginning of a file of this format.
@@ -88,11 +88,7 @@ fn a_remedy_names_the_file_as_a_shell_wants_it() {
     assert!(fault.is_some_and(|fault| fault.contains("`load('a b.mat'); ")));
     let stream = Box::new(Cursor::new(b"\x1f\x8b\x08\x00".to_vec()));
     let opened = by_content::open(stream, Known::default(), &OpenOptions::default());
-    let told = message(
-        opened
-            .err()
-            .map(|fault| InputError::new("standard input", fault)),
-    );
+    let told = message(opened.err().map(|fault| fault.of("standard input")));
     let expected = "standard input: this is compressed by gzip, which is not read; unpack it, `gzip -dc FILE | antinode identify -`";
     assert_eq!(told, expected);
 }

@@ -5,7 +5,7 @@ mod types;
 use std::process::Command;
 
 use super::super::tests::{Dribble, drain, file, message, read};
-use super::super::{InputError, OpenOptions, Recording};
+use super::super::{OpenOptions, Recording};
 
 fn npy(descr: &str, fortran: bool, shape: &str, data: &[u8]) -> Vec<u8> {
     let fortran = if fortran { "True" } else { "False" };
@@ -217,7 +217,7 @@ fn a_pipe_cannot_go_back() {
             super::Known::default(),
             None,
         )
-        .map_err(|fault| InputError::new("pipe", fault))
+        .map_err(|fault| fault.of("pipe"))
     };
     let mut recording = Recording::new("pipe".to_owned(), open("(3, 2)").unwrap(), None);
     assert_eq!(drain(&mut recording).0, PAIRS);

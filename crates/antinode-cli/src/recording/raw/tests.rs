@@ -4,6 +4,7 @@ use clap::ValueEnum;
 
 use super::super::tests::{self, Dribble, drain, file, message};
 use super::*;
+use crate::recording::by_content::{RAW_FORMAT_NEEDED, UNKNOWN};
 use crate::recording::{OpenOptions, Recording};
 
 fn raw(bytes: Vec<u8>, kind: Kind) -> Recording {
@@ -84,8 +85,8 @@ fn messages_and_the_readme_name_every_format() {
     let names: Vec<String> = names.collect();
     let (last, others) = names.split_last().expect("there are formats");
     let expected = format!("--raw {} or {last}", others.join(", "));
-    let needed = Fault::RawFormatNeeded.to_string();
-    let unknown = Fault::Unknown.to_string();
+    let needed = RAW_FORMAT_NEEDED.to_owned();
+    let unknown = UNKNOWN.to_owned();
     let readme = include_str!("../../../../../README.md").replace('`', "");
     for text in [needed, unknown, readme] {
         assert!(text.contains(&expected), "{expected} is not in {text}");

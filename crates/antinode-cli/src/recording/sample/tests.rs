@@ -5,7 +5,7 @@ use super::*;
 fn decode(code: SampleCode, bytes: &[u8]) -> (Vec<[f32; 2]>, Option<String>) {
     let mut pairs = Vec::new();
     let bad = code.decode(bytes, &mut pairs, 70).err();
-    (pairs, bad.map(|bad| bad.to_string()))
+    (pairs, bad.map(|bad| bad.of("a").to_string()))
 }
 
 #[test]
@@ -103,7 +103,7 @@ fn bits_below_the_valid_ones_are_refused() {
     let code = SampleCode::new(Kind::I32).valid_bits(24);
     let (pairs, bad) = decode(code, &[0, 0, 0, 1, 0, 0, 0, 2, 1, 0, 0, 0, 0, 0, 0, 0]);
     assert_eq!(pairs.len(), 1);
-    let expected = "sample pair 71 (from 0), S_C (left): bits are set below the 24 valid ones of a 32-bit sample, ";
+    let expected = "a: sample pair 71 (from 0), S_C (left): bits are set below the 24 valid ones of a 32-bit sample, ";
     assert!(bad.expect("a fault").starts_with(expected));
 }
 

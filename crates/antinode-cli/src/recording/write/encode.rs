@@ -30,14 +30,6 @@ pub enum SampleFormat {
     F64,
 }
 
-/// A sample as it is stored.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Stored {
-    Code(i32),
-    F32(f32),
-    F64(f64),
-}
-
 impl SampleFormat {
     fn bits(self) -> u16 {
         match self {
@@ -57,26 +49,27 @@ impl SampleFormat {
         u64::from(self.bits() / 4)
     }
 
-    /// The code of 1.0, one more than the largest.
+    /// What 1.0 is stored as: for integers the code above the largest.
     fn scale(self) -> f64 {
-        f64::from(self.bits() - 1).exp2()
+        match self {
+            Self::F32 | Self::F64 => 1.0,
+            Self::I16 | Self::I24 | Self::I32 => f64::from(self.bits() - 1).exp2(),
+        }
     }
 
-    /// `value` in this format; none if it is not finite there.
-    pub(super) fn store(self, value: f64) -> Option<Stored> {
-        match self {
-            Self::F32 => Some(value as f32)
-                .filter(|value| value.is_finite())
-                .map(Stored::F32),
-            Self::F64 => Some(value)
-                .filter(|value| value.is_finite())
-                .map(Stored::F64),
+    /// `value` as it is stored, an integer as its code; none if it is not finite there.
+    pub(super) fn store(self, value: f64) -> Option<f64> {
+        let scale = self.scale();
+        let stored = match self {
+            Self::F32 => f64::from(value as f32),
+            Self::F64 => value,
             Self::I16 | Self::I24 | Self::I32 => {
-                let code = (value * self.scale()).round_ties_even();
-                let code = code.clamp(-self.scale(), self.scale() - 1.0);
-                value.is_finite().then_some(Stored::Code(code as i32))
+                let code = (value * scale).round_ties_even();
+                // A code of 0 has no sign.
+                code.clamp(-scale, scale - 1.0) + 0.0
             }
-        }
+        };
+        (value.is_finite() && stored.is_finite()).then_some(stored)
     }
 }
 
@@ -99,16 +92,21 @@ impl Format {
         }
     }
 
-    /// Whether the format can hold a sample rate, or what to do instead.
-    pub fn check_rate(self, rate: f64, sample: SampleFormat) -> Result<(), &'static str> {
+    /// Whether the format can hold samples of this kind at this rate, or what is wrong and what to do instead.
+    pub fn check(self, rate: f64, sample: SampleFormat) -> Result<(), String> {
         let per_second = rate * sample.pair_bytes() as f64;
-        if !rate.is_finite() || rate <= 0.0 {
-            Err("give a positive number of Hz")
+        let remedy = if !rate.is_finite() || rate <= 0.0 {
+            "give a positive number of Hz"
         } else if self == Self::Wav && (rate.fract() != 0.0 || per_second > f64::from(u32::MAX)) {
-            Err("give a whole number of Hz below 2^32 bytes/s, or write a .csv file")
+            "give a whole number of Hz below 2^32 bytes/s, or write a .csv file"
+        } else if self == Self::Wav && sample == SampleFormat::F64 {
+            return Err("WAV files of 64-bit floats are not written; choose --sample f32, or a .npy or .csv file".to_owned());
         } else {
-            Ok(())
-        }
+            return Ok(());
+        };
+        Err(format!(
+            "this format cannot hold a sample rate of {rate} Hz; {remedy}"
+        ))
     }
 }
 
@@ -145,29 +143,34 @@ impl Output {
         limited && (pairs + 1).saturating_mul(sample.pair_bytes()) > MAX_WAV_DATA
     }
 
-    /// Writes a pair, and in text its time.
-    pub fn write(
-        &mut self,
-        sample: SampleFormat,
-        seconds: f64,
-        [c, d]: [Stored; 2],
-    ) -> io::Result<()> {
+    /// Writes a pair, as it is stored, and in text its time.
+    pub fn write(&mut self, sample: SampleFormat, seconds: f64, pair: [f64; 2]) -> io::Result<()> {
         match self {
-            Self::Wav(wav) => {
-                write_wav(wav, c)?;
-                write_wav(wav, d)
+            Self::Wav(wav) => pair.into_iter().try_for_each(|value| {
+                let written = if sample.is_integer() {
+                    wav.write_sample(value as i32)
+                } else {
+                    wav.write_sample(value as f32)
+                };
+                written.map_err(wav_fault)
+            }),
+            // The fewest digits that read back as the same numbers.
+            Self::Csv(output) if sample == SampleFormat::F32 => {
+                let [c, d] = pair.map(|value| value as f32);
+                writeln!(output, "{seconds:?},{c:?},{d:?}")
             }
             Self::Csv(output) => {
-                write!(output, "{seconds:?},")?;
-                write_text(output, sample, c)?;
-                output.write_all(b",")?;
-                write_text(output, sample, d)?;
-                output.write_all(b"\n")
+                let [c, d] = pair.map(|value| value / sample.scale());
+                writeln!(output, "{seconds:?},{c:?},{d:?}")
             }
-            Self::Npy(output) => {
-                write_npy(output, sample, c)?;
-                write_npy(output, sample, d)
-            }
+            Self::Npy(output) => pair.into_iter().try_for_each(|value| match sample {
+                SampleFormat::I16 => output.write_all(&(value as i16).to_le_bytes()),
+                // NPY has no 24-bit numbers: they take the upper bits of 32.
+                SampleFormat::I24 => output.write_all(&((value as i32) << 8).to_le_bytes()),
+                SampleFormat::I32 => output.write_all(&(value as i32).to_le_bytes()),
+                SampleFormat::F32 => output.write_all(&(value as f32).to_le_bytes()),
+                SampleFormat::F64 => output.write_all(&value.to_le_bytes()),
+            }),
         }
     }
 
@@ -203,36 +206,6 @@ fn wav_fault(fault: hound::Error) -> io::Error {
     match fault {
         hound::Error::IoError(fault) => fault,
         other => io::Error::other(other),
-    }
-}
-
-fn write_wav(wav: &mut WavWriter<BufWriter<File>>, value: Stored) -> io::Result<()> {
-    let written = match value {
-        Stored::Code(code) => wav.write_sample(code),
-        Stored::F32(value) => wav.write_sample(value),
-        Stored::F64(_) => Err(hound::Error::Unsupported),
-    };
-    written.map_err(wav_fault)
-}
-
-/// Writes the fewest digits that read back as the same number.
-fn write_text(output: &mut impl Write, sample: SampleFormat, value: Stored) -> io::Result<()> {
-    match value {
-        Stored::Code(code) => write!(output, "{:?}", f64::from(code) / sample.scale()),
-        Stored::F32(value) => write!(output, "{value:?}"),
-        Stored::F64(value) => write!(output, "{value:?}"),
-    }
-}
-
-fn write_npy(output: &mut impl Write, sample: SampleFormat, value: Stored) -> io::Result<()> {
-    match value {
-        Stored::Code(code) if sample == SampleFormat::I16 => {
-            output.write_all(&(code as i16).to_le_bytes())
-        }
-        // NPY has no 24-bit numbers: they take the upper bits of 32.
-        Stored::Code(code) => output.write_all(&(code << (32 - sample.bits())).to_le_bytes()),
-        Stored::F32(value) => output.write_all(&value.to_le_bytes()),
-        Stored::F64(value) => output.write_all(&value.to_le_bytes()),
     }
 }
 

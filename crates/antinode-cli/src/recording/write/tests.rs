@@ -5,7 +5,7 @@ use std::process::Command;
 
 use super::super::tests::{drain, without};
 use super::super::{OpenOptions, Recording};
-use super::encode::{MAX_WAV_DATA, Stored};
+use super::encode::MAX_WAV_DATA;
 
 use clap::ValueEnum;
 
@@ -18,12 +18,7 @@ fn signal(count: usize) -> Vec<[f64; 2]> {
         .collect()
 }
 
-fn write(
-    path: &Path,
-    rate: f64,
-    sample: SampleFormat,
-    pairs: &[[f64; 2]],
-) -> Result<(), OutputError> {
+fn write(path: &Path, rate: f64, sample: SampleFormat, pairs: &[[f64; 2]]) -> Result<(), Failure> {
     let mut writer = RecordingWriter::create(path, rate, sample)?;
     for &pair in pairs {
         writer.write(pair)?;
@@ -80,13 +75,13 @@ fn integers_are_rounded_and_held_at_the_rails() {
         (SampleFormat::I24, 8_388_607),
         (SampleFormat::I32, i32::MAX),
     ] {
-        assert_eq!(sample.store(1.0), Some(Stored::Code(top)));
-        assert_eq!(sample.store(7.0), Some(Stored::Code(top)));
-        assert_eq!(sample.store(-1.0), Some(Stored::Code(-top - 1)));
-        assert_eq!(sample.store(-7.0), Some(Stored::Code(-top - 1)));
+        assert_eq!(sample.store(1.0), Some(f64::from(top)));
+        assert_eq!(sample.store(7.0), Some(f64::from(top)));
+        assert_eq!(sample.store(-1.0), Some(f64::from(-top - 1)));
+        assert_eq!(sample.store(-7.0), Some(f64::from(-top - 1)));
         let code = 1.0 / (f64::from(top) + 1.0);
-        assert_eq!(sample.store(2.4 * code), Some(Stored::Code(2)));
-        assert_eq!(sample.store(-2.6 * code), Some(Stored::Code(-3)));
+        assert_eq!(sample.store(2.4 * code), Some(2.0));
+        assert_eq!(sample.store(-2.6 * code), Some(-3.0));
     }
 }
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::{PathPersistError, TempPath};
 
-use super::{OutputError, OutputFault};
+use crate::failure::{Failure, unwritable};
 
 /// Longest line of a text that is written, bytes.
 const MAX_LINE: u64 = 1 << 16;
@@ -21,18 +21,30 @@ pub struct WholeFile {
 
 impl WholeFile {
     /// Begins a file, and gives the handle to write to it.
-    pub fn create(path: &Path) -> Result<(Self, File), OutputError> {
+    pub fn create(path: &Path) -> Result<(Self, File), Failure> {
         let file = path.display().to_string();
-        let error = |fault| OutputError::new(&file, fault);
+        let error = |told: String| Failure::Fault(format!("{file}: {told}"));
         let there = fs::metadata(path).ok();
         let target = match &there {
-            Some(there) if !there.is_file() => return Err(error(OutputFault::NotAFile)),
-            Some(there) if there.permissions().readonly() => {
-                return Err(error(OutputFault::ReadOnly));
+            Some(there) if !there.is_file() => {
+                return Err(error(
+                    "this exists and is not a file; give the path of a file".to_owned(),
+                ));
             }
-            Some(_) if is_held(path) => return Err(error(OutputFault::Held)),
+            Some(there) if there.permissions().readonly() => {
+                return Err(error(
+                    "this file is read-only, and stays as it is; give another name, or make it writable"
+                        .to_owned(),
+                ));
+            }
+            Some(_) if is_held(path) => {
+                return Err(error(
+                    "another program has this file open; close it there, or give another name"
+                        .to_owned(),
+                ));
+            }
             // A link is kept: the file that it leads to is replaced, or made.
-            Some(_) => fs::canonicalize(path).map_err(|fault| error(OutputFault::Io(fault)))?,
+            Some(_) => fs::canonicalize(path).map_err(|fault| unwritable(&file, &fault))?,
             None => match fs::read_link(path) {
                 Ok(missing) => path.with_file_name(missing),
                 Err(_) => path.to_owned(),
@@ -41,8 +53,10 @@ impl WholeFile {
         let parent = target.parent().filter(|name| !name.as_os_str().is_empty());
         let directory = parent.unwrap_or(Path::new("."));
         if !directory.is_dir() {
-            let directory = directory.display().to_string();
-            return Err(error(OutputFault::NoDirectory { directory }));
+            let directory = directory.display();
+            return Err(error(format!(
+                "there is no directory `{directory}`; make it first, or correct the path"
+            )));
         }
         let mut builder = tempfile::Builder::new();
         // Encoders choose the format by the extension.
@@ -55,7 +69,7 @@ impl WholeFile {
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         // The temporary name would tell the user nothing.
-        let plain = |fault: io::Error| error(OutputFault::Io(fault.kind().into()));
+        let plain = |fault: io::Error| unwritable(&file, &fault.kind().into());
         let (output, temporary) = builder.tempfile_in(directory).map_err(plain)?.into_parts();
         // Set while the file is empty, as others may not be allowed to read its content.
         if let Some(there) = there {
@@ -70,16 +84,16 @@ impl WholeFile {
     }
 
     /// Writes a file of this text, still without its name.
-    pub fn text(path: &Path, text: &str) -> Result<Self, OutputError> {
+    pub fn text(path: &Path, text: &str) -> Result<Self, Failure> {
         let (whole, mut output) = Self::create(path)?;
         match output.write_all(text.as_bytes()) {
             Ok(()) => Ok(whole),
-            Err(fault) => Err(OutputError::io(&whole.file, fault)),
+            Err(fault) => Err(unwritable(&whole.file, &fault)),
         }
     }
 
     /// Gives the file its name, or keeps it under its temporary one if it cannot have it; dropped without this, it leaves nothing behind.
-    pub fn finish(self) -> Result<(), OutputError> {
+    pub fn finish(self) -> Result<(), Failure> {
         let Self {
             file,
             target,
@@ -89,7 +103,7 @@ impl WholeFile {
         let synced = File::options().write(true).open(&temporary);
         synced
             .and_then(|output| output.sync_all())
-            .map_err(|fault| OutputError::io(&file, fault))?;
+            .map_err(|fault| unwritable(&file, &fault))?;
         let Err(PathPersistError { error, path }) = temporary.persist(target) else {
             return Ok(());
         };
@@ -97,16 +111,19 @@ impl WholeFile {
         Err(match path.keep() {
             Ok(kept) => {
                 let kept = kept.file_name().unwrap_or_default().display().to_string();
-                OutputError::new(&file, OutputFault::Unnamed { fault: error, kept })
+                Failure::Fault(format!(
+                    "{file}: cannot be given this name: {error}; the complete data are beside it in `{kept}`: check what is at this path, and \
+                     whether another program has it open, then rename them"
+                ))
             }
-            Err(_) => OutputError::io(&file, error),
+            Err(_) => unwritable(&file, &error),
         })
     }
 
     /// Cuts off an unfinished last line, as a full disk leaves one; false if no line is whole.
-    pub fn cut(&self) -> Result<bool, OutputError> {
+    pub fn cut(&self) -> Result<bool, Failure> {
         self.cut_to_lines()
-            .map_err(|fault| OutputError::io(&self.file, fault))
+            .map_err(|fault| unwritable(&self.file, &fault))
     }
 
     fn cut_to_lines(&self) -> io::Result<bool> {

@@ -6,7 +6,7 @@ use super::Stream;
 use super::error::Fault;
 use super::preamble::{self, STEADY_LINES, Start};
 use super::quoted::{self, has_decimal_commas};
-use super::text::{self, LineEnds, MAX_LINE, bare};
+use super::text::{self, MAX_LINE, bare};
 
 /// The beginning of a text below its settings, which [`Lines`] has still to read.
 pub(super) struct Beginning {
@@ -21,7 +21,7 @@ pub(super) struct Beginning {
 /// Reads lines that are neither blank nor comments.
 pub(super) struct Lines {
     /// The lines read ahead, and those behind them.
-    stream: Chain<Cursor<Vec<u8>>, BufReader<LineEnds>>,
+    stream: Chain<Cursor<Vec<u8>>, BufReader<Stream>>,
     /// The line last read, without its end.
     line: Vec<u8>,
     pub separator: u8,
@@ -35,7 +35,7 @@ pub(super) struct Lines {
 impl Lines {
     /// Opens text, and gives its first lines beside the reader.
     pub fn open(stream: Stream) -> Result<(Self, Beginning), Fault> {
-        let mut stream = BufReader::with_capacity(MAX_LINE, LineEnds::new(stream));
+        let mut stream = BufReader::with_capacity(MAX_LINE, text::with_line_ends(stream)?);
         let (mut begun, line) = text::first_line(&mut stream)?;
         // Reading these lines ahead delays no row of a pipe: each row needs at least as many lines.
         let mut is_quoted = false;

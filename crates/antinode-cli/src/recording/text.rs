@@ -1,6 +1,6 @@
 //! Lines of text and the numbers in them.
 
-use std::io::{self, BufRead, Read};
+use std::io::{self, BufRead, Cursor, Read};
 
 use super::Stream;
 use super::columns::is_time;
@@ -9,70 +9,35 @@ use super::error::Fault;
 /// Longest line read, bytes: a few numbers need less, and a file without ends of line must not fill the memory.
 pub(super) const MAX_LINE: usize = 1 << 16;
 
-/// Text with line ends converted to `\n` from `\r\n` or `\r`, byte for byte.
-///
-/// A `\r` before a separator ended a line of a file that was pasted to the left of another: it becomes a blank.
-pub(super) struct LineEnds {
-    stream: Stream,
-    /// True after a `\r` that was converted to `\n`.
-    is_after_return: bool,
-    /// A byte that is read and not yet given: what becomes of a `\r` depends on the next byte.
-    ahead: Option<u8>,
+/// Text whose lines end in `\n`, as most do, a `\r` before it being a blank; those of a text with `\r` alone are converted.
+pub(super) fn with_line_ends(mut stream: Stream) -> io::Result<Stream> {
+    let (mut head, mut byte) = (Vec::new(), [0]);
+    // Before a separator, a `\r` ended a line of a file that was pasted to the left of another.
+    let is_end = |head: &[u8]| match head {
+        [.., b'\r', next] => !is_mark(*next),
+        _ => head.ends_with(b"\n"),
+    };
+    while head.len() < MAX_LINE && !is_end(&head) && stream.read(&mut byte)? > 0 {
+        head.push(byte[0]);
+    }
+    let is_converted =
+        matches!(head[..], [.., b'\r', next] if !is_mark(next) && !b"\r\n".contains(&next));
+    let stream = Cursor::new(head).chain(stream);
+    Ok(if is_converted {
+        Box::new(Returns(stream))
+    } else {
+        Box::new(stream)
+    })
 }
 
-impl LineEnds {
-    pub fn new(stream: Stream) -> Self {
-        Self {
-            stream,
-            is_after_return: false,
-            ahead: None,
-        }
-    }
+/// Text with `\n` in place of each `\r`.
+struct Returns<R>(R);
 
-    /// Reads what there is; of a `\r` at its end, the next byte must be known before it is given.
-    fn read_on(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
-        let held = self.ahead.iter().len();
-        let read = self.stream.read(&mut bytes[held..])?;
-        let is_end = read == 0 && held < bytes.len();
-        if let Some(byte) = self.ahead.take() {
-            bytes[0] = byte;
-        }
-        let count = held + read;
-        if bytes[..count].last() == Some(&b'\r') && !is_end {
-            if count > 1 {
-                self.ahead = Some(b'\r');
-                return Ok(count - 1);
-            }
-            let mut next = [0];
-            self.ahead = (self.stream.read(&mut next)? == 1).then_some(next[0]);
-        }
-        Ok(count)
-    }
-}
-
-impl Read for LineEnds {
+impl<R: Read> Read for Returns<R> {
     fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
-        if bytes.is_empty() {
-            return Ok(0);
-        }
-        let count = self.read_on(bytes)?;
-        let bytes = &mut bytes[..count];
-        if !self.is_after_return && !bytes.contains(&b'\r') {
-            return Ok(count);
-        }
-        for place in 0..count {
-            let next = bytes.get(place + 1).copied().or(self.ahead);
-            let byte = bytes[place];
-            let is_inside = byte == b'\r' && next.is_some_and(is_mark);
-            bytes[place] = match byte {
-                b'\r' if is_inside => b' ',
-                b'\r' => b'\n',
-                // The `\n` of `\r\n` becomes a blank before the next line, where it does no harm.
-                b'\n' if self.is_after_return => b' ',
-                other => other,
-            };
-            self.is_after_return = byte == b'\r' && !is_inside;
-        }
+        let count = self.0.read(bytes)?;
+        let returns = bytes[..count].iter_mut().filter(|byte| **byte == b'\r');
+        returns.for_each(|byte| *byte = b'\n');
         Ok(count)
     }
 }

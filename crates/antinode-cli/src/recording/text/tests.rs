@@ -35,21 +35,25 @@ fn fields_lose_blanks_and_quotes() {
 #[test]
 fn lines_end_the_same_way() {
     for (text, expected) in [
-        ("1,2\r\n3,4", "1,2\n 3,4"),
         ("1,2\r3,4\r", "1,2\n3,4\n"),
+        ("\r,\r3,4\r", "\n,\n3,4\n"),
+        // A `\r` before the end of a line, or of a line of the left one of two files side by side, is a blank.
+        ("1,2\r\n3,4", "1,2\r\n3,4"),
         ("1,2\n3,4\n", "1,2\n3,4\n"),
-        ("1,2\r\r\n3,4", "1,2\n\n 3,4"),
-        // Two files side by side.
-        ("1\r,2\r\n3\r;4", "1 ,2\n 3 ;4"),
+        ("1,2\r\r\n3,4", "1,2\r\r\n3,4"),
+        ("1\r,2\r\n3\r,4", "1\r,2\r\n3\r,4"),
     ] {
         for most in [1, 2, 3, 100] {
             let bytes = text.as_bytes().to_vec();
             let stream = super::super::tests::Dribble::new(bytes, most);
             let mut found = String::new();
-            LineEnds::new(Box::new(stream))
+            with_line_ends(Box::new(stream))
+                .unwrap()
                 .read_to_string(&mut found)
                 .unwrap();
             assert_eq!(found, expected);
         }
     }
+    let split = |line| fields(line, b',').collect::<Vec<_>>();
+    assert_eq!(split(b"1\r,2\r\r\n"), [b"1", b"2"]);
 }

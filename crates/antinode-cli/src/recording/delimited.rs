@@ -58,19 +58,19 @@ pub(super) fn open(stream: Stream, options: &OpenOptions, live: bool) -> Result<
             start
         },
         warnings,
-        source: Box::new(source),
+        source: Source::Text(Box::new(source)),
         pairs: None,
         integers: None,
     })
 }
 
 /// A source of pairs from lines of numbers.
-struct Delimited {
+pub(super) struct Delimited {
     rows: Rows,
     /// The first number in the time column, or 0 if there is none.
     start: f64,
     axis: Option<TimeAxis>,
-    gaps: Gaps,
+    pub gaps: Gaps,
     /// The lines left out since the last pair.
     left_out: u64,
     live: bool,
@@ -196,10 +196,9 @@ impl Delimited {
             ),
         })
     }
-}
 
-impl Source for Delimited {
-    fn fill(&mut self, pairs: &mut Vec<[f32; 2]>, capacity: usize) -> Result<(), Fault> {
+    /// Appends pairs until there are `capacity`, as [`Source::fill`] says.
+    pub fn fill(&mut self, pairs: &mut Vec<[f32; 2]>, capacity: usize) -> Result<(), Fault> {
         pairs.extend(self.ahead.by_ref().take(capacity));
         while pairs.len() < capacity {
             if let Some(fault) = self.fault.take() {
@@ -232,23 +231,18 @@ impl Source for Delimited {
         Ok(())
     }
 
-    fn ahead(&self) -> &[[f32; 2]] {
+    /// Pairs that are read ahead and not yet delivered.
+    pub fn ahead(&self) -> &[[f32; 2]] {
         self.ahead.as_slice()
     }
 
-    fn next_gap(&self) -> Option<Gap> {
-        self.gaps.next()
-    }
-
-    fn pass_gap(&mut self, is_reported: bool) {
-        self.gaps.pass(is_reported);
-    }
-
-    fn look(&mut self, start: u64, end: u64) {
+    /// Notes that the pairs from `start` up to `end` are asked for: lines left out among them are reported at the end.
+    pub fn look(&mut self, start: u64, end: u64) {
         self.rows.left_out.look(start, end);
     }
 
-    fn lost(&self) -> Option<Fault> {
+    /// The fault to report at the end for samples that are missing and lines that are left out.
+    pub fn lost(&self) -> Option<Fault> {
         if let Some((first, count)) = self.rows.left_out.reported() {
             let lost = self.gaps.reported().map_or(String::new(), |(line, lost)| {
                 let samples = if lost == 1 {
@@ -270,11 +264,13 @@ impl Source for Delimited {
         Some(self.rows.header.time_fault(line, &fault))
     }
 
-    fn late_warning(&self) -> Option<String> {
+    /// A warning about the samples delivered that could not be given before.
+    pub fn late_warning(&self) -> Option<String> {
         self.axis.as_ref()?.late_warning(self.used)
     }
 
-    fn not_finite(&self) -> Option<&Flaw> {
+    /// The first sample that is not a finite number, with its place.
+    pub fn not_finite(&self) -> Option<&Flaw> {
         self.rows.not_finite.as_ref()
     }
 }

@@ -41,6 +41,7 @@ use std::rc::Rc;
 pub use by_content::OpenOptions;
 use codes::Lowest;
 pub use columns::Columns;
+use delimited::Delimited;
 use error::Fault;
 pub use error::{STANDARD_INPUT, unreadable};
 pub use gaps::Gap;
@@ -136,12 +137,13 @@ impl Recording {
         let unit = opened.integers.map(|code| unit(code.full_scale()));
         let (head, step, fault) = if bytes_total.is_some() {
             // Found in the first samples that are not silent: integers, too, may come from a converter of fewer bits.
-            let (head, step, fault) = resolution::of_head(opened.source.as_mut());
+            let (head, step, fault) = resolution::of_head(&mut opened.source);
             let step = step.or_else(|| codes::of_integers(&head, unit?));
             (head, step, fault)
         } else {
             // A pipe must not be waited for, and how much has come is chance: only what the source has read ahead anyway is used.
-            let step = resolution::resolution(opened.source.ahead());
+            let ahead = opened.source.text().map_or(&[][..], Delimited::ahead);
+            let step = resolution::resolution(ahead);
             (Vec::new(), step, None)
         };
         Self {
@@ -185,7 +187,7 @@ impl Recording {
 
     /// A warning that can be given only once all is read.
     pub fn late_warning(&self) -> Option<String> {
-        let told = self.opened.source.late_warning()?;
+        let told = self.opened.source.text()?.late_warning()?;
         Some(format!("{}: {told}", self.name))
     }
 
@@ -235,7 +237,7 @@ impl Recording {
     pub fn not_finite(&self) -> Option<Failure> {
         let first = self.not_finite.first.as_ref()?;
         // The first that the source met may be none of those looked at.
-        let written = self.opened.source.not_finite();
+        let written = self.opened.source.text().and_then(Delimited::not_finite);
         let first = written
             .filter(|written| written.pair == first.pair)
             .unwrap_or(first);
@@ -251,17 +253,19 @@ impl Recording {
 
     /// The next gap in the samples' own time; each gap among delivered pairs must be passed by [`pass_gap`](Self::pass_gap), in order.
     pub fn next_gap(&self) -> Option<Gap> {
-        self.opened.source.next_gap()
+        self.opened.source.text()?.gaps.next()
     }
 
     /// Passes the next gap, which `is_reported` at the end unless it lies outside the span asked for.
     pub fn pass_gap(&mut self, is_reported: bool) {
-        self.opened.source.pass_gap(is_reported);
+        if let Source::Text(text) = &mut self.opened.source {
+            text.gaps.pass(is_reported);
+        }
     }
 
     /// The error for the gaps passed so far that are to be reported and for the lines left out, if there are any.
     pub fn lost(&self) -> Option<Failure> {
-        Some(self.opened.source.lost()?.of(&self.name))
+        Some(self.opened.source.text()?.lost()?.of(&self.name))
     }
 
     /// Clears `buffer` and fills it to its capacity with the next pairs [S_C, S_D]; `Ok(0)` at the end.
@@ -289,7 +293,9 @@ impl Recording {
     /// Looks through `pairs`, which begin at pair `before` of the recording, for samples that are not finite and lines that are left out:
     /// only those found here are reported.
     pub fn look(&mut self, before: u64, pairs: &[[f32; 2]]) {
-        self.opened.source.look(before, before + pairs.len() as u64);
+        if let Source::Text(text) = &mut self.opened.source {
+            text.look(before, before + pairs.len() as u64);
+        }
         match &mut self.lowest {
             // Integers are all finite.
             Some(lowest) => lowest.look(pairs),

@@ -50,10 +50,10 @@ pub(super) fn open(
         .checked_mul(channels * size)
         .ok_or_else(not_understood)?;
     let available = length.map_or(bytes, |length| bytes.min(length.saturating_sub(start)));
-    let (source, there): (Box<dyn Source>, u64) = if is_interleaved {
+    let (source, there) = if is_interleaved {
         let source = Interleaved::new(stream, code, frame, length.is_none());
         (
-            Box::new(source.promise(bytes)),
+            Source::Interleaved(source.promise(bytes, false)),
             available / (channels * size),
         )
     } else {
@@ -75,7 +75,7 @@ pub(super) fn open(
             count,
             chunks: [Vec::new(), Vec::new(), Vec::new()],
         };
-        (Box::new(planes), there)
+        (Source::Planes(planes), there)
     };
     Ok(Opened::of_samples("NPY of", code, source, Some(there)))
 }
@@ -188,7 +188,7 @@ fn shown(shape: &[u64]) -> String {
 }
 
 /// A source of pairs from an array that stores one channel after the other.
-struct Planes {
+pub(super) struct Planes {
     stream: File,
     code: SampleCode,
     /// Where S_C and S_D begin in the file, bytes.
@@ -223,17 +223,9 @@ impl Planes {
         }
         Ok(())
     }
-}
 
-fn interleave<const N: usize>(c: &[u8], d: &[u8], both: &mut Vec<u8>) {
-    for (c, d) in c.as_chunks::<N>().0.iter().zip(d.as_chunks::<N>().0) {
-        both.extend_from_slice(c);
-        both.extend_from_slice(d);
-    }
-}
-
-impl Source for Planes {
-    fn fill(&mut self, pairs: &mut Vec<[f32; 2]>, capacity: usize) -> Result<(), Fault> {
+    /// Appends pairs until there are `capacity`, as [`Source::fill`] says.
+    pub fn fill(&mut self, pairs: &mut Vec<[f32; 2]>, capacity: usize) -> Result<(), Fault> {
         while pairs.len() < capacity {
             let left = usize::try_from(self.there - self.read).unwrap_or(usize::MAX);
             let count = left.min(capacity - pairs.len()).min(PLANE_PAIRS);
@@ -250,6 +242,13 @@ impl Source for Planes {
             self.read += count as u64;
         }
         Ok(())
+    }
+}
+
+fn interleave<const N: usize>(c: &[u8], d: &[u8], both: &mut Vec<u8>) {
+    for (c, d) in c.as_chunks::<N>().0.iter().zip(d.as_chunks::<N>().0) {
+        both.extend_from_slice(c);
+        both.extend_from_slice(d);
     }
 }
 

@@ -20,16 +20,21 @@ pub(super) struct Interleaved {
     frame: Frame,
     /// The samples of the chosen channels, if there are others beside them.
     picked: Vec<u8>,
-    /// The number of pairs that the header promises, if it does.
-    promised: Option<u64>,
-    /// The bytes of data not yet read, if the header promises their number.
-    left: Option<u64>,
+    /// What the header promises; none if samples go on to the end of the stream.
+    promise: Option<Promise>,
     pairs: u64,
     chunk: Vec<u8>,
     /// The bytes of an incomplete pair, at the front of `chunk`.
     begun: usize,
     live: bool,
-    /// Whether it is to be checked that only other chunks of a WAV file follow the promised data.
+}
+
+/// The data that a header promises.
+struct Promise {
+    pairs: u64,
+    /// The bytes not yet read.
+    left: u64,
+    /// Whether it is to be checked that only other chunks of a WAV file follow.
     is_wav: bool,
 }
 
@@ -44,7 +49,12 @@ pub(super) fn open(
     let source = Interleaved::new(stream, code, frame(options)?, length.is_none());
     let frame_bytes = source.frame_bytes() as u64;
     let pairs = length.map(|length| length / frame_bytes);
-    Ok(Opened::of_samples("raw", code, Box::new(source), pairs))
+    Ok(Opened::of_samples(
+        "raw",
+        code,
+        Source::Interleaved(source),
+        pairs,
+    ))
 }
 
 /// The channels of raw samples, whose number only the options tell.
@@ -74,21 +84,11 @@ impl Interleaved {
             code,
             frame,
             picked: Vec::new(),
-            promised: None,
-            left: None,
+            promise: None,
             pairs: 0,
             chunk: vec![0; CHUNK_BYTES],
             begun: 0,
             live,
-            is_wav: false,
-        }
-    }
-
-    /// The same, with only other chunks of a WAV file to follow the promised data.
-    pub fn of_wav(self) -> Self {
-        Self {
-            is_wav: true,
-            ..self
         }
     }
 
@@ -97,10 +97,13 @@ impl Interleaved {
         self.frame.channels * self.code.sample_bytes()
     }
 
-    /// Reads no more than `bytes` of samples, and fails if there are fewer.
-    pub fn promise(mut self, bytes: u64) -> Self {
-        self.promised = Some(bytes / self.frame_bytes() as u64);
-        self.left = Some(bytes);
+    /// Reads no more than `bytes` of samples, and fails if there are fewer, or if others than chunks follow them in a WAV file.
+    pub fn promise(mut self, bytes: u64, is_wav: bool) -> Self {
+        self.promise = Some(Promise {
+            pairs: bytes / self.frame_bytes() as u64,
+            left: bytes,
+            is_wav,
+        });
         self
     }
 
@@ -110,9 +113,8 @@ impl Interleaved {
             .saturating_mul(self.frame_bytes())
             .min(self.chunk.len())
             - self.begun;
-        let most = self
-            .left
-            .map_or(most, |left| left.min(most as u64) as usize);
+        let promise = self.promise.as_ref();
+        let most = promise.map_or(most, |promise| promise.left.min(most as u64) as usize);
         let free = &mut self.chunk[self.begun..][..most];
         loop {
             match self.stream.read(free) {
@@ -126,10 +128,11 @@ impl Interleaved {
     ///
     /// It looks only once: what follows the name of a chunk may be anything.
     fn behind(&mut self) -> Option<Fault> {
-        let is_to_come = self.left != Some(0) || self.live;
-        if !std::mem::take(&mut self.is_wav) || is_to_come {
+        let promise = self.promise.as_mut()?;
+        if !std::mem::take(&mut promise.is_wav) || promise.left > 0 || self.live {
             return None;
         }
+        let promised = promise.pairs;
         // Chunks begin at even places: behind an odd number of bytes there is one more.
         let read = self.pairs * self.frame_bytes() as u64 + self.begun as u64;
         let mut padding = [0; 1];
@@ -153,9 +156,8 @@ impl Interleaved {
                 None
             }
             _ => Some(Fault::new(format!(
-                "the WAV header promises {} sample pairs, but more follow, which are not read: the header was never completed, or \
-                 cannot hold so large a number; correct it, for example with `sox --ignore-length FILE whole.wav`",
-                self.promised?
+                "the WAV header promises {promised} sample pairs, but more follow, which are not read: the header was never completed, or \
+                 cannot hold so large a number; correct it, for example with `sox --ignore-length FILE whole.wav`"
             ))),
         }
     }
@@ -165,8 +167,8 @@ impl Interleaved {
             return Err(fault);
         }
         let found = self.pairs;
-        match self.promised {
-            Some(promised) if found < promised => Err(Fault::truncated(promised, found)),
+        match &self.promise {
+            Some(promise) if found < promise.pairs => Err(Fault::truncated(promise.pairs, found)),
             _ if self.begun > 0 => Err(Fault::new(format!(
                 "sample pair {found} (from 0): the data end in the middle of it; check that they hold {} channels \
                  in the stated sample format, and that the recording was not cut off",
@@ -179,16 +181,17 @@ impl Interleaved {
             _ => Ok(()),
         }
     }
-}
 
-impl Source for Interleaved {
-    fn fill(&mut self, pairs: &mut Vec<[f32; 2]>, capacity: usize) -> Result<(), Fault> {
+    /// Appends pairs until there are `capacity`, as [`Source::fill`] says.
+    pub fn fill(&mut self, pairs: &mut Vec<[f32; 2]>, capacity: usize) -> Result<(), Fault> {
         while pairs.len() < capacity {
             let read = self.read(capacity - pairs.len())?;
             if read == 0 {
                 return self.end();
             }
-            self.left = self.left.map(|left| left - read as u64);
+            if let Some(promise) = &mut self.promise {
+                promise.left -= read as u64;
+            }
             let there = self.begun + read;
             let whole = there - there % self.frame_bytes();
             let bytes = if self.frame == Frame::PAIR {

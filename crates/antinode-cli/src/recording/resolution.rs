@@ -29,7 +29,7 @@ pub(super) fn resolution(pairs: &[[f32; 2]]) -> Option<f32> {
 }
 
 /// The first pairs of a file, the step found in them, and the fault behind them, if any.
-pub(super) fn of_head(source: &mut dyn Source) -> (Vec<[f32; 2]>, Option<f32>, Option<Fault>) {
+pub(super) fn of_head(source: &mut Source) -> (Vec<[f32; 2]>, Option<f32>, Option<Fault>) {
     let mut head = Vec::with_capacity(BLOCK_PAIRS);
     let mut end = 0;
     loop {

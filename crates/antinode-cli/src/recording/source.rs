@@ -8,9 +8,10 @@ use std::rc::Rc;
 
 use encoding_rs_io::DecodeReaderBytesBuilder;
 
+use super::delimited::Delimited;
 use super::error::{Fault, unreadable};
-use super::gaps::Gap;
-use super::not_finite::Flaw;
+use super::npy::Planes;
+use super::raw::Interleaved;
 use super::sample::SampleCode;
 use crate::failure::Failure;
 
@@ -80,39 +81,29 @@ impl Read for Counted {
 }
 
 /// A source of pairs: the reader of one format.
-pub(super) trait Source {
+pub(super) enum Source {
+    Interleaved(Interleaved),
+    Planes(Planes),
+    // Boxed, as it is far larger than the others.
+    Text(Box<Delimited>),
+}
+
+impl Source {
     /// Appends pairs until there are `capacity`, fewer from a live stream, none at the end. Good pairs come before an error.
-    fn fill(&mut self, pairs: &mut Vec<[f32; 2]>, capacity: usize) -> Result<(), Fault>;
-
-    /// Pairs that are read ahead and not yet delivered.
-    fn ahead(&self) -> &[[f32; 2]] {
-        &[]
+    pub fn fill(&mut self, pairs: &mut Vec<[f32; 2]>, capacity: usize) -> Result<(), Fault> {
+        match self {
+            Self::Interleaved(samples) => samples.fill(pairs, capacity),
+            Self::Planes(samples) => samples.fill(pairs, capacity),
+            Self::Text(text) => text.fill(pairs, capacity),
+        }
     }
 
-    /// The next gap that [`pass_gap`](Self::pass_gap) has not passed.
-    fn next_gap(&self) -> Option<Gap> {
-        None
-    }
-
-    /// Passes the next gap, which is reported at the end or not.
-    fn pass_gap(&mut self, _is_reported: bool) {}
-
-    /// Notes that the pairs from `start` up to `end` are asked for: lines left out among them are reported at the end.
-    fn look(&mut self, _start: u64, _end: u64) {}
-
-    /// The fault to report at the end for samples that are missing and lines that are left out.
-    fn lost(&self) -> Option<Fault> {
-        None
-    }
-
-    /// A warning about the samples delivered that could not be given before.
-    fn late_warning(&self) -> Option<String> {
-        None
-    }
-
-    /// The first sample that is not a finite number, with its place, in text.
-    fn not_finite(&self) -> Option<&Flaw> {
-        None
+    /// The text, which alone has gaps, lines left out and places of its samples.
+    pub fn text(&self) -> Option<&Delimited> {
+        match self {
+            Self::Text(text) => Some(text),
+            Self::Interleaved(_) | Self::Planes(_) => None,
+        }
     }
 }
 
@@ -133,7 +124,7 @@ pub(super) struct Known {
 
 /// A source, and what its header tells.
 pub(super) struct Opened {
-    pub source: Box<dyn Source>,
+    pub source: Source,
     /// The format, in words.
     pub format: String,
     pub sample_rate: Option<f64>,
@@ -147,12 +138,7 @@ pub(super) struct Opened {
 
 impl Opened {
     /// A source of binary samples, of `pairs` pairs if known, whose format does not tell their rate.
-    pub fn of_samples(
-        format: &str,
-        code: SampleCode,
-        source: Box<dyn Source>,
-        pairs: Option<u64>,
-    ) -> Self {
+    pub fn of_samples(format: &str, code: SampleCode, source: Source, pairs: Option<u64>) -> Self {
         Self {
             source,
             format: format!("{format} {}", code.words()),

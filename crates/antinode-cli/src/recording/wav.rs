@@ -7,7 +7,7 @@ use super::frame::Frame;
 use super::raw::Interleaved;
 use super::sample::{Kind, SampleCode};
 use super::time::Meaning;
-use super::{OpenOptions, Opened, Stream};
+use super::{OpenOptions, Opened, Source, Stream};
 
 /// The last bytes of every `KSDATAFORMAT_SUBTYPE`, of which the first two are a format tag.
 const SUBTYPE_TAIL: [u8; 14] = *b"\x00\x00\x00\x00\x10\x00\x80\x00\x00\xaa\x00\x38\x9b\x71";
@@ -45,7 +45,7 @@ pub(super) fn open(
     };
     let source = Interleaved::new(header.stream, format.code, frame, length.is_none());
     let source = match promised {
-        Some(promised) => source.promise(promised).of_wav(),
+        Some(promised) => source.promise(promised, true),
         None => source,
     };
     let sample_rate = (format.rate > 0).then_some(f64::from(format.rate));
@@ -54,7 +54,7 @@ pub(super) fn open(
     Ok(Opened {
         sample_rate,
         warnings: warning.into_iter().collect(),
-        ..Opened::of_samples("WAV of", format.code, Box::new(source), pairs)
+        ..Opened::of_samples("WAV of", format.code, Source::Interleaved(source), pairs)
     })
 }
 

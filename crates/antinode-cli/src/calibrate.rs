@@ -82,7 +82,7 @@ pub fn run(options: &Calibrate) -> Result<(), Failure> {
     {
         (found, rows.runs, driven) = (Ok(others), runs, left_out);
     }
-    let found = found.map_err(|fault| fault.of(&name))?;
+    let found = found.map_err(|told| Failure::Fault(format!("{name}: {told}")))?;
     let quantities = quantities(&found);
     let mut report = io::stderr().lock();
     // The result goes to standard output: standard error may be closed.

@@ -13,7 +13,6 @@ use nalgebra::{Complex, DVector};
 
 use super::equations::{Equation, by_integrals, equations};
 use super::moments::Run;
-use crate::failure::Failure;
 use crate::normal::{Equations, Factors};
 use crate::options::Corrected;
 use crate::runs::EXPLAINED;
@@ -132,36 +131,13 @@ pub struct Found {
     pub turned: [f64; 2],
 }
 
-/// The reason why there is no calibration.
-#[derive(Debug, PartialEq)]
-pub enum Fault {
-    /// The pattern turns too little: by this, at most, rad.
-    Still(f64),
-    /// The steps do not converge.
-    Unsettled,
-}
-
-impl Fault {
-    /// The failure for a file of this name.
-    pub fn of(&self, name: &str) -> Failure {
-        Failure::Fault(match self {
-            Self::Still(turned) => format!(
-                "{name}: the pattern turns by only {:.1}°, but must turn by 90° or more: turn the gyro while it rings down; if it did turn \
-                 that far, shorten the windows, as the pattern must turn by less than {:.1}° from row to row",
-                turned.to_degrees(),
-                super::MAX_TURN.to_degrees()
-            ),
-            Self::Unsettled => format!(
-                "{name}: no calibration explains the rows: check that S_C and S_D are the pick-offs, and that only the gyro's rotation moves \
-                 the pattern"
-            ),
-        })
-    }
-}
+/// What is wrong if the steps do not converge.
+const UNSETTLED: &str = "no calibration explains the rows: check that S_C and S_D are the pick-offs, and that only the gyro's rotation moves \
+                         the pattern";
 
 /// Finds the calibration with which energy and quadrature run evenly; the search begins at `start`. If the damping is seen to change, this
-/// is allowed for: flaws of pick-offs would look like it.
-pub fn solve(runs: &[Run], start: PickOffs) -> Result<Found, Fault> {
+/// is allowed for: flaws of pick-offs would look like it. Fails with what is wrong with the rows.
+pub fn solve(runs: &[Run], start: PickOffs) -> Result<Found, String> {
     let steady = search(runs, Damping::Steady, start)?;
     let changing = search(runs, Damping::Changing, steady.pick_offs);
     let changing = changing
@@ -171,13 +147,18 @@ pub fn solve(runs: &[Run], start: PickOffs) -> Result<Found, Fault> {
 }
 
 /// The same if this is assumed of the damping.
-fn search(runs: &[Run], damping: Damping, start: PickOffs) -> Result<Found, Fault> {
+fn search(runs: &[Run], damping: Damping, start: PickOffs) -> Result<Found, String> {
     let turned = runs.iter().fold([0f64; 2], |[back, forth], run| {
         [back.min(run.turns[0]), forth.max(run.turns[1])]
     });
     let [back, forth] = turned.map(f64::abs);
     if back.max(forth) < MIN_TURN {
-        return Err(Fault::Still(back.max(forth)));
+        return Err(format!(
+            "the pattern turns by only {:.1}°, but must turn by 90° or more: turn the gyro while it rings down; if it did turn \
+             that far, shorten the windows, as the pattern must turn by less than {:.1}° from row to row",
+            back.max(forth).to_degrees(),
+            super::MAX_TURN.to_degrees()
+        ));
     }
     let knows_splits = back.min(forth) >= MIN_TURN_BACK;
     let rows: usize = runs.iter().map(|run| run.moments.len()).sum();
@@ -187,7 +168,7 @@ fn search(runs: &[Run], damping: Damping, start: PickOffs) -> Result<Found, Faul
         let normal = Normal::of(runs, &pick_offs, damping, splits);
         let unknowns = normal.equations.unknowns();
         let Some(factors) = normal.equations.factors(0.0) else {
-            return Err(Fault::Unsettled);
+            return Err(UNSETTLED.to_owned());
         };
         let step = factors.solve(normal.equations.right());
         let omega = normal.omega;
@@ -200,7 +181,7 @@ fn search(runs: &[Run], damping: Damping, start: PickOffs) -> Result<Found, Faul
         pick_offs.angle += part * step[2];
         let is_plausible = pick_offs.gain_ratio.is_finite() && pick_offs.angle.abs() < 0.7;
         if !is_plausible {
-            return Err(Fault::Unsettled);
+            return Err(UNSETTLED.to_owned());
         }
         if (0..FLAWS).all(|i| step[i].abs() < SETTLED) {
             // Residual after the step, per degree of freedom.
@@ -230,7 +211,7 @@ fn search(runs: &[Run], damping: Damping, start: PickOffs) -> Result<Found, Faul
             });
         }
     }
-    Err(Fault::Unsettled)
+    Err(UNSETTLED.to_owned())
 }
 
 /// Variances of the flaws if the splits are these, noise in the integrals included.

@@ -16,6 +16,7 @@ mod failure;
 mod given_rows;
 mod identify;
 mod interrupt;
+mod line;
 mod median;
 mod methods;
 mod normal;

@@ -3,7 +3,7 @@
 use super::by_energy::Point;
 use super::found::Measured;
 use super::frequency::widened;
-use super::line::Times;
+use crate::line::Times;
 
 /// Deviations from which on a drift is significant.
 const SEEN: f64 = 3.5;
@@ -19,15 +19,9 @@ pub struct Drift {
 /// The line through a run; `are_weighted` says whether its points have known variances.
 pub fn drift(run: &[Point], are_weighted: bool) -> Drift {
     let times = Times::new(run.iter().map(|row| [row.weight, row.time]));
-    let slope = times.slope(run.iter().map(|row| row.excess));
+    let (slope, left) = times.line(run.iter().map(|row| row.excess));
     let squares = slope * slope * times.along;
-    let weights: f64 = run.iter().map(|row| row.weight).sum();
-    let mean = run.iter().map(|row| row.weight * row.excess).sum::<f64>() / weights;
-    let all = run
-        .iter()
-        .map(|row| row.weight * (row.excess - mean).powi(2));
-    let scatter = (all.sum::<f64>() - squares) / (run.len() - 2) as f64;
-    let scatter = widened(scatter, are_weighted);
+    let scatter = widened(left / (run.len() - 2) as f64, are_weighted);
     Drift {
         slope: (slope, (scatter / times.along).sqrt()),
         squares: if are_weighted && squares > SEEN * SEEN * scatter {

@@ -2,7 +2,8 @@
 
 use super::DECAY_SEEN;
 use super::found::Found;
-use crate::runs::Run;
+use crate::line::Times;
+use crate::runs::{Row, Run};
 
 /// Information on the decay, as a share of that of the best run, below which a run adds nothing to that.
 const MIN_SHARE: f64 = 0.01;
@@ -26,13 +27,6 @@ pub fn informing(runs: &[Run], found: &Found) -> Vec<usize> {
 
 /// Information that the amplitudes of a run have on its decay: one over the variance, s².
 fn on_decay(run: &Run) -> f64 {
-    let (mut weights, mut mean, mut squares) = (0.0, 0.0, 0.0);
-    for row in &run.rows {
-        let weight = (row.main / row.deviations[0]).powi(2);
-        weights += weight;
-        let apart = row.time - mean;
-        mean += apart * weight / weights;
-        squares += weight * apart * (row.time - mean);
-    }
-    squares
+    let weighted = |row: &Row| [(row.main / row.deviations[0]).powi(2), row.time];
+    Times::new(run.rows.iter().map(weighted)).along
 }

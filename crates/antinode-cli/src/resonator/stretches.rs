@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::by_energy::Point;
-use super::line::Times;
+use crate::line::Times;
 use crate::runs::Row;
 
 /// Deviations of the phase's advance that must lie within half a turn: with fewer, the number of turns is ambiguous.
@@ -117,7 +117,7 @@ impl<'a> Stretch<'a> {
             [(TAU / row.phase_deviation).powi(2), row.time - first.time]
         }));
         if times.along > 0.0 {
-            let slope = |i: usize| times.slope(self.run.iter().map(|run| run[i]));
+            let slope = |i: usize| times.line(self.run.iter().map(|run| run[i])).0;
             add(times.along, std::array::from_fn(slope));
         }
         let [excess, energy, time] = sums.map(|sum| sum / weight);

@@ -4,6 +4,7 @@ use std::io::{self, Write};
 
 use super::{MIN_ROWS, Row, Run, turn};
 use crate::digits::counted;
+use crate::line::Times;
 
 /// Deviations by which a decay, or the lack of one, must be significant.
 const SIGNIFICANT: f64 = 10.0;
@@ -70,17 +71,9 @@ struct Line {
 impl Line {
     /// Fits the line; flaws of the pick-offs change an amplitude by the share `by_flaws` per radian that the pattern turns.
     fn through(energies: &[Energy], by_flaws: f64) -> Self {
-        let weighted = |of: &dyn Fn(&Energy) -> f64| {
-            let each = energies.iter();
-            each.map(|one| of(one) / (one.deviation * one.deviation))
-                .sum::<f64>()
-        };
-        let weight = weighted(&|_| 1.0);
-        let time = weighted(&|one| one.time) / weight;
-        let log = weighted(&|one| one.log) / weight;
-        let along = weighted(&|one| (one.time - time).powi(2));
-        let slope = weighted(&|one| (one.time - time) * (one.log - log)) / along;
-        let squares = weighted(&|one| (one.log - log - slope * (one.time - time)).powi(2));
+        let each = energies.iter();
+        let times = Times::new(each.clone().map(|one| [one.deviation.powi(-2), one.time]));
+        let (slope, squares) = times.line(each.map(|one| one.log));
         let misfit = squares / energies.len().saturating_sub(2).max(1) as f64;
         let (mut angle, mut min, mut max) = (0.0, 0f64, 0f64);
         for pair in energies.windows(2) {
@@ -90,7 +83,7 @@ impl Line {
         let seconds = energies[energies.len() - 1].time - energies[0].time;
         Self {
             decay: -slope,
-            noise: SIGNIFICANT * (misfit.max(1.0) / along).sqrt(),
+            noise: SIGNIFICANT * (misfit.max(1.0) / times.along).sqrt(),
             flaws: by_flaws * (max - min) / seconds,
             squares,
             misfit,

@@ -10,7 +10,6 @@ mod found;
 mod frequency;
 mod gaps;
 mod informing;
-mod line;
 mod model;
 pub mod motion;
 mod normal;
@@ -138,7 +137,7 @@ fn one_way(results: &Results) -> Option<f64> {
 /// True if all patterns stand where the first one does, and rotation turns none far: the splits are found from how they move it.
 fn is_one_pattern(results: &Results) -> bool {
     let Results { rows, found, .. } = results;
-    let Some(resonator) = found.resonator().filter(|_| !found.is_unsteady()) else {
+    let Some(resonator) = found.resonator().filter(|_| !found.model.is_unsteady()) else {
         return false;
     };
     let first = rows.runs[0].rows[0].angle;
@@ -155,7 +154,7 @@ fn write_notes(out: &mut impl Write, results: &Results) -> io::Result<()> {
     note_splits(out, results)?;
     note_frequency(out, &results.frequency)?;
     note_damping(out, &results.found)?;
-    if results.found.is_unsteady() {
+    if results.found.model.is_unsteady() {
         writeln!(
             out,
             "no steady rotation explains the rows: pattern angles are taken from the rows, and their drift is not used to find the splits"
@@ -209,7 +208,7 @@ fn note_splits(out: &mut impl Write, results: &Results) -> io::Result<()> {
             4e-3 * rate,
             4e-8 * rate * frequency
         )?;
-    } else if is_one_pattern(results) && results.found.damping() == Damping::Steady {
+    } else if is_one_pattern(results) && results.found.model.damping == Damping::Steady {
         writeln!(
             out,
             "warning: only one pattern that is not turned shows the splits, and damping that changes by 1 % meanwhile looks like a split of \
@@ -251,7 +250,7 @@ fn note_frequency(out: &mut impl Write, frequency: &Frequency) -> io::Result<()>
 
 /// Warns if the damping changes, and says what the numbers then are.
 fn note_damping(out: &mut impl Write, found: &Found) -> io::Result<()> {
-    let what = match found.damping() {
+    let what = match found.model.damping {
         Damping::Steady => return Ok(()),
         Damping::ByEnergy => {
             "with the amplitude, or pick-offs or converter are nonlinear: decay times are those of small waves"

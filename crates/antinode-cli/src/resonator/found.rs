@@ -138,11 +138,6 @@ impl Found {
         self.residual * self.residual * (self.count - self.values.len() as f64)
     }
 
-    /// How the damping changes.
-    pub fn damping(&self) -> Damping {
-        self.model.damping
-    }
-
     /// Change of the decay rate of a run with time, 1/s², if the damping changes with time.
     pub fn decay_drift(&self, run: usize, seconds: f64) -> Option<Measured> {
         let by = curve::drift(seconds);
@@ -187,11 +182,6 @@ impl Found {
         let count = (2 * self.model.explained() * rows) as f64;
         let residual = self.of_runs[run].residual;
         (residual, residual / count.sqrt())
-    }
-
-    /// True if patterns are turned unsteadily.
-    pub fn is_unsteady(&self) -> bool {
-        self.model.is_unsteady()
     }
 
     /// True if nothing but noise is left.

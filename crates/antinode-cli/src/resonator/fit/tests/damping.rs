@@ -147,7 +147,7 @@ fn what_damping_does_not_explain_is_not_taken_for_it() {
 #[test]
 fn a_table_may_turn_unsteadily_meanwhile() {
     let slower = |time: f64| 0.2 * (-0.05 * time).exp();
-    let is_found = |found: &Found| found.is_unsteady() && found.model.curves() > 0;
+    let is_found = |found: &Found| found.model.is_unsteady() && found.model.curves() > 0;
     let runs = |seed| {
         let one = |way: f64, angle, seed| {
             let start = [1.0, 0.03, angle];

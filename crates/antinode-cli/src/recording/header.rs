@@ -47,16 +47,25 @@ impl Header {
     ) -> Result<Self, Fault> {
         let separator = lines.separator;
         let Beginning { first, next, start } = beginning;
-        let names: Vec<String> = fields(first, separator).map(lossy).collect();
+        let names: Vec<&[u8]> = fields(first, separator).collect();
+        let below = next.split(|&byte| byte == b'\n');
+        let below: Vec<Vec<&[u8]>> = below
+            .filter(|line| !is_skipped(line))
+            .map(|line| fields(line, separator).collect())
+            .collect();
+        let rows: Vec<&[&[u8]]> = below.iter().map(Vec::as_slice).collect();
+        let is_header = is_header(&names, &rows, separator);
+        let [names, below] = [&names[..], rows.first().unwrap_or(&&[][..])]
+            .map(|fields| fields.iter().map(|field| lossy(field)).collect::<Vec<_>>());
         let width = names.len();
         let counted = counted(&names);
         let has_numbers = counted.is_some_and(|counted| counted.has_numbers);
         let columns = counted.map_or(width, |counted| counted.columns);
-        let names = is_header(first, next, separator).then_some(&names[..columns]);
-        lines.advance()?;
+        let names = is_header.then_some(&names[..columns]);
+        let units = Some(&below[..]).filter(|fields| are_units(fields, separator));
         let line = FirstLine {
             names,
-            units: &units_below(next, separator),
+            units: units.unwrap_or_default(),
             width: columns,
             may_be_timed: start.sequence.is_none() && (counted.is_none() || has_numbers),
             has_numbers,
@@ -64,7 +73,7 @@ impl Header {
             is_of_rows: is_of_rows(first, next),
         };
         let places = line.places(chosen);
-        let places = places.map_err(|fault| Fault::line(lines.number(), fault))?;
+        let places = places.map_err(|fault| Fault::line(lines.number() + 1, fault))?;
         let of_names = counted.and_then(|counted| counted.sequence);
         let sequence = start.sequence.or(of_names);
         let mut header = Self {
@@ -78,42 +87,29 @@ impl Header {
         header.warnings.extend(start.cut.map(|line| format!(
             "line {line} seems to lack its beginning, as if the logger had been attached in the middle of it, and is left out"
         )));
-        header.read_units(lines, names, counted, start)?;
-        Ok(header)
-    }
-
-    /// Reads the units below these names, if there are any, and warns of those that are in doubt.
-    fn read_units(
-        &mut self,
-        lines: &mut Lines,
-        names: Option<&[String]>,
-        counted: Option<Counted>,
-        start: &Start,
-    ) -> Result<(), Fault> {
         let found = match names {
-            Some(names) => self.find_units(lines, names, counted)?,
-            None => {
-                lines.back();
-                FoundUnits::default()
-            }
+            Some(names) => header.find_units(lines, names, below, counted)?,
+            None => FoundUnits::default(),
         };
         let doubt = if found.has_time {
             None
         } else {
-            self.doubt_time(names, start)?
+            header.doubt_time(names, start)?
         };
-        self.bring_together(found)?;
-        self.warnings.extend(doubt);
-        Ok(())
+        header.bring_together(found)?;
+        header.warnings.extend(doubt);
+        Ok(header)
     }
 
-    /// Finds the units in the names and in the line below them; leaves that line to be read if it holds none.
+    /// Reads the line of the names, and finds the units in these and in the fields `below` them; reads that line too if it holds units.
     fn find_units(
         &mut self,
         lines: &mut Lines,
         names: &[String],
+        below: Vec<String>,
         counted: Option<Counted>,
     ) -> Result<FoundUnits, Fault> {
+        lines.advance()?;
         let name = |role: usize| self.places[role].map_or("", |place| &names[place]);
         let (time, signals) = (name(0), [name(1), name(2)]);
         let line = lines.number();
@@ -124,13 +120,14 @@ impl Header {
             // Outside of brackets, the end of a name may be a label.
             are_sure: signals.iter().all(|name| is_bracketed(name)),
         };
-        if !lines.advance()? {
-            return Ok(found);
-        }
-        let Some(unit) = self.units(lines, counted) else {
-            lines.back();
+        let own = [1, 2].map(|role| {
+            let unit = self.places[role].and_then(|place| below.get(place));
+            unit.map_or(String::new(), |unit| bare(unit).to_owned())
+        });
+        let Some(unit) = self.units(below, counted, lines.separator) else {
             return Ok(found);
         };
+        lines.advance()?;
         let line = lines.number();
         let is_of_time = self.set_unit(line, &unit, &unit)?;
         // Brackets hold a unit: one that is not known cannot be taken for seconds.
@@ -138,17 +135,10 @@ impl Header {
             return Err(self.unit_fault(line, &unit));
         }
         found.has_time |= is_of_time;
-        let own = [1, 2].map(|role| self.field(lines, role));
         if own.iter().any(|unit| !unit.is_empty()) {
             (found.signals, found.line, found.are_sure) = (own, line, true);
         }
         Ok(found)
-    }
-
-    /// The unit that this line holds for the column of this `role`.
-    fn field(&self, lines: &Lines, role: usize) -> String {
-        let field = self.places[role].and_then(|place| lines.fields().nth(place));
-        bare(&lossy(field.unwrap_or_default())).to_owned()
     }
 
     /// The warning about a time in brackets that hold no unit of time; fails if the settings give another unit than s.
@@ -214,13 +204,13 @@ impl Header {
         }
     }
 
-    /// The time's unit, which may be empty, if this is a line of units.
-    fn units(&mut self, lines: &Lines, counted: Option<Counted>) -> Option<String> {
-        let mut found: Vec<String> = lines.fields().map(lossy).collect();
-        // A single separator at the end of a line does not begin another field.
-        if found.len() == self.width + 1 && found[self.width].is_empty() {
-            found.pop();
-        }
+    /// The time's unit, which may be empty, if these are the fields of a line of units.
+    fn units(
+        &mut self,
+        mut found: Vec<String>,
+        counted: Option<Counted>,
+        separator: u8,
+    ) -> Option<String> {
         if found.len() > self.width {
             return None;
         }
@@ -229,7 +219,7 @@ impl Header {
             let first = counted.has_numbers.then_some(0);
             let is_first = self.places[0].is_none() || self.places[0] == first;
             if is_first && counted.sequence.is_none() {
-                self.sequence = Sequence::read(&found, counted, lines.separator);
+                self.sequence = Sequence::read(&found, counted, separator);
             }
             found.truncate(counted.columns);
         }
@@ -243,7 +233,7 @@ impl Header {
             })?,
             None => "",
         };
-        let are_units = are_units(&found, lines.separator);
+        let are_units = are_units(&found, separator);
         (are_bracketed || are_units && found.iter().any(|unit| !unit.is_empty()))
             .then(|| time.to_owned())
     }
@@ -279,16 +269,6 @@ fn is_of_rows(first: &[u8], next: &[u8]) -> bool {
     // A table for reading may have a title above its heading.
     let is_of_table = |text: &[u8]| lossy(text).contains(MAIN_AMPLITUDE);
     lossy(first).contains("quadrature_amplitude") || is_of_table(first) || is_of_table(next)
-}
-
-/// The fields of the first of these lines, if it may be one of units; otherwise none.
-fn units_below(next: &[u8], separator: u8) -> Vec<String> {
-    let mut lines = next.split(|&byte| byte == b'\n');
-    let line = lines.find(|line| !is_skipped(line)).unwrap_or_default();
-    let found: Vec<String> = fields(line, separator).map(lossy).collect();
-    Some(found)
-        .filter(|found| are_units(found, separator))
-        .unwrap_or_default()
 }
 
 /// A field as text, whatever its encoding.

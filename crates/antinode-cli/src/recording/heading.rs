@@ -2,23 +2,11 @@
 
 use super::forms::are_alike;
 use super::no_number::stand_in;
-use super::number::{self, number};
-use super::text::{self, fields};
+use super::number;
 
-/// Fewest lines that can tell whether the line above them is a sample of the same wave.
-const MIN_LINES: usize = 8;
-
-/// Largest distance of a first sample from the wave that follows, in rms residuals.
-const MAX_DISTANCE: f64 = 5.0;
-
-/// Whether the first line holds the names of columns, judged by the lines that follow; in doubt it does not, lest a sample be lost.
-pub(super) fn is_header(first: &[u8], next: &[u8], separator: u8) -> bool {
-    let names: Vec<&[u8]> = fields(first, separator).collect();
-    let rows: Vec<Vec<&[u8]>> = next
-        .split(|&byte| byte == b'\n')
-        .filter(|line| !text::is_skipped(line))
-        .map(|line| fields(line, separator).collect())
-        .collect();
+/// Whether the fields of the first line are the names of columns, judged by the rows that follow; in doubt they are not, lest a sample
+/// be lost.
+pub(super) fn is_header(names: &[&[u8]], rows: &[&[&[u8]]], separator: u8) -> bool {
     let is_number = |field: &[u8]| number::is_number(field, separator);
     if !names.iter().any(|name| is_number(name)) {
         // A recording may begin with samples out of range, and a field written like the sample below it is no name.
@@ -41,13 +29,7 @@ pub(super) fn is_header(first: &[u8], next: &[u8], separator: u8) -> bool {
         .iter()
         .all(|name| !is_number(name) || name.iter().all(u8::is_ascii_digit));
     are_whole && words.any(|(place, _)| is_above_numbers(place))
-        || are_counted(&names) && {
-            let named: Vec<usize> = (0..names.len())
-                .filter(|&place| !names[place].is_empty())
-                .collect();
-            are_written_otherwise(&rows, &named, separator)
-                && !is_continued(&names, &rows, separator)
-        }
+        || are_counted(names) && are_written_otherwise(names, rows, separator)
 }
 
 /// Whether a field begins with a letter, as names do, and does not stand for a missing number.
@@ -66,62 +48,29 @@ fn are_counted(names: &[&[u8]]) -> bool {
     counted.len() >= 2 && counted.iter().enumerate().all(is_next)
 }
 
-/// Whether the numbers in these columns all have a decimal mark or an exponent, which 0, 1 and so on lack.
-fn are_written_otherwise(rows: &[Vec<&[u8]>], columns: &[usize], separator: u8) -> bool {
+/// Whether the numbers below these names all have a decimal mark or an exponent, which 0, 1 and so on lack.
+fn are_written_otherwise(names: &[&[u8]], rows: &[&[&[u8]]], separator: u8) -> bool {
     let is_otherwise = |field: &[u8]| {
         number::is_number(field, separator) && field.iter().any(|byte| b".,eE".contains(byte))
     };
-    columns.iter().all(|&place| {
+    let mut named = (0..names.len()).filter(|&place| !names[place].is_empty());
+    named.all(|place| {
         let below = || rows.iter().filter_map(|row| row.get(place));
         below().any(|field| is_otherwise(field))
             && below().all(|field| is_otherwise(field) || stand_in(field).is_some())
     })
 }
 
-/// Whether the last two columns continue the first line as a wave does: in a wave, the sum of a sample's two neighbours is proportional
-/// to the sample, both less their means.
-fn is_continued(names: &[&[u8]], rows: &[Vec<&[u8]>], separator: u8) -> bool {
-    let pair = |row: &[&[u8]]| {
-        let [.., c, d] = row else { return None };
-        let pair = [number::<f64>(c, separator)?, number::<f64>(d, separator)?];
-        pair.iter().all(|value| value.is_finite()).then_some(pair)
-    };
-    let Some(first) = pair(names) else {
-        return false;
-    };
-    let pairs: Vec<[f64; 2]> = rows.iter().map_while(|row| pair(row)).collect();
-    if pairs.len() < MIN_LINES {
-        return false;
-    }
-    let channel = |index: usize| pairs.iter().map(move |pair| pair[index]);
-    let channels: [Vec<f64>; 2] = [0, 1].map(|index| channel(index).collect());
-    // Means over all samples but the first and the last: of the sample, and of the sum of its neighbours.
-    let means = channels.each_ref().map(|x| {
-        let inner = &x[1..x.len() - 1];
-        let count = inner.len() as f64;
-        let sums: f64 = x.windows(3).map(|three| three[0] + three[2]).sum();
-        [inner.iter().sum::<f64>() / count, sums / count]
-    });
-    let points = || {
-        channels.iter().zip(&means).flat_map(|(x, [own, sum])| {
-            x.windows(3)
-                .map(move |three| (three[1] - own, three[0] + three[2] - sum))
-        })
-    };
-    let squares: f64 = points().map(|(x, _)| x * x).sum();
-    let slope = points().map(|(x, y)| x * y).sum::<f64>() / squares;
-    let residuals: f64 = points().map(|(x, y)| (y - slope * x).powi(2)).sum();
-    let rms = (residuals / points().count() as f64).sqrt();
-    (0..2).all(|index| {
-        let ([own, sum], x) = (means[index], &channels[index]);
-        let off = first[index] + x[1] - sum - slope * (x[0] - own);
-        off.abs() <= MAX_DISTANCE * rms
-    })
-}
-
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::super::text::fields;
+
+    fn is_header(first: &str, next: &str) -> bool {
+        let split = |line| fields(line, b',').collect::<Vec<_>>();
+        let rows: Vec<_> = next.lines().map(|line| split(line.as_bytes())).collect();
+        let rows: Vec<_> = rows.iter().map(Vec::as_slice).collect();
+        super::is_header(&split(first.as_bytes()), &rows, b',')
+    }
 
     #[test]
     fn names_are_distinguished_from_samples() {
@@ -149,30 +98,7 @@ mod tests {
             ("1,OVER", "2,3\n", false),
             ("2024-05-01,1,2", "2024-05-02,3,4\n", false),
         ] {
-            assert_eq!(
-                is_header(first.as_bytes(), next.as_bytes(), b','),
-                expected,
-                "{first} {next}"
-            );
-        }
-    }
-
-    #[test]
-    fn a_wave_that_begins_as_columns_are_counted_is_kept() {
-        let wave = |from: usize, scale: f64, noise: f64| -> String {
-            (from..16)
-                .map(|k| (k, (0.4 * k as f64).sin_cos()))
-                .map(|(k, (sin, cos))| {
-                    let noise = noise * [0.7, -1.1, 0.2, 1.3, -0.9][k % 5];
-                    format!("{:.4},{:.4}\n", scale * sin + noise, scale * cos - noise)
-                })
-                .collect()
-        };
-        for noise in [0.0, 0.01] {
-            assert!(!is_header(b"0,1", wave(1, 1.0, noise).as_bytes(), b','));
-            // The same wave, later or of another amplitude.
-            assert!(is_header(b"0,1", wave(3, 1.0, noise).as_bytes(), b','));
-            assert!(is_header(b"0,1", wave(1, 0.5, noise).as_bytes(), b','));
+            assert_eq!(is_header(first, next), expected, "{first} {next}");
         }
     }
 }

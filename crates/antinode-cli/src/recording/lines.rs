@@ -6,7 +6,7 @@ use super::Stream;
 use super::error::Fault;
 use super::preamble::{self, STEADY_LINES, Start};
 use super::quoted::{self, has_decimal_commas};
-use super::text::{self, MAX_LINE, bare};
+use super::text::{self, MAX_LINE};
 
 /// The beginning of a text below its settings, which [`Lines`] has still to read.
 pub(super) struct Beginning {
@@ -28,8 +28,6 @@ pub(super) struct Lines {
     /// Whether numbers are in quotes, with decimal commas.
     is_quoted: bool,
     number: u64,
-    /// True if the line last read is to be read again.
-    again: bool,
 }
 
 impl Lines {
@@ -71,7 +69,6 @@ impl Lines {
             line: Vec::new(),
             is_quoted,
             number: line - 1 + beginning.start.lines as u64,
-            again: false,
         };
         Ok((lines, beginning))
     }
@@ -88,16 +85,8 @@ impl Lines {
         !is_begun && !rest.buffer().contains(&b'\n')
     }
 
-    /// Has [`advance`](Self::advance) give the line last read once more.
-    pub fn back(&mut self) {
-        self.again = true;
-    }
-
     /// Goes to the next line; false at the end.
     pub fn advance(&mut self) -> Result<bool, Fault> {
-        if std::mem::take(&mut self.again) {
-            return Ok(true);
-        }
         loop {
             self.line.clear();
             let mut line = self.stream.by_ref().take(MAX_LINE as u64);
@@ -130,7 +119,6 @@ impl Lines {
 
     /// The fields of this line; where blanks separate them, only those that are not empty.
     pub fn fields(&self) -> impl Iterator<Item = &[u8]> {
-        let fields = self.line.split(|&byte| byte == self.separator).map(bare);
-        fields.filter(|field| self.separator != b' ' || !field.is_empty())
+        text::all_fields(&self.line, self.separator)
     }
 }

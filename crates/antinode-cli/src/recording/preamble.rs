@@ -237,14 +237,11 @@ fn names(lines: &[Line], rows: usize, width: usize, separator: u8) -> usize {
         above == 0 || are_words || line.fields.len() >= width && has_role(line)
     };
     let is_unit_line = || {
-        let below: Vec<u8> = lines[rows..]
-            .iter()
-            .flat_map(|line| line.text.to_vec())
-            .collect();
+        let below: Vec<&[&[u8]]> = lines[rows..].iter().map(|line| &line.fields[..]).collect();
         let over = &lines[above - 1];
         over.fields.len() >= width
             && !is_title(over)
-            && is_header(over.text, &below, separator)
+            && is_header(&over.fields, &below, separator)
             && are_units(line, width, above == 1, separator)
     };
     if above > 0 && is_unit_line() {

@@ -172,6 +172,11 @@ pub(super) fn fields(line: &[u8], separator: u8) -> impl Iterator<Item = &[u8]> 
     let line = line.trim_ascii_end();
     // A single separator at the end of a line does not begin another field.
     let line = line.strip_suffix(&[separator]).unwrap_or(line);
+    all_fields(line, separator)
+}
+
+/// The same with an empty field behind a separator at the end.
+pub(super) fn all_fields(line: &[u8], separator: u8) -> impl Iterator<Item = &[u8]> {
     let fields = line.split(move |&byte| byte == separator).map(bare);
     fields.filter(move |field| separator != b' ' || !field.is_empty())
 }

@@ -15,8 +15,8 @@ pub(super) fn start(lines: &[Line], numbers: &[usize], separator: u8) -> Option<
     let are_rows = rows.iter().all(|row| has_samples(row, numbers, separator));
     let is_cut = lacks_fields(&first.fields, width, separator)
         || width > 2 && lacks_digits(first, rows, separator) == Some(true);
-    let below: Vec<u8> = rows.iter().flat_map(|row| row.text.to_vec()).collect();
-    let is_whole = !is_cut || is_header(first.text, &below, separator);
+    let below: Vec<&[&[u8]]> = rows.iter().map(|row| &row.fields[..]).collect();
+    let is_whole = !is_cut || is_header(&first.fields, &below, separator);
     (are_rows && !is_whole).then(|| Start {
         cut: Some(first.before),
         lines: rows[0].before,

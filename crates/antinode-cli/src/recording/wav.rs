@@ -31,14 +31,14 @@ pub(super) fn open(
         stream,
         position: 0,
     };
-    let (format, data) = header.read()?;
+    let (format, sizes) = header.read()?;
     let start = header.position;
     // Of a single channel no choice could be right.
     let columns = options.columns.as_ref().filter(|_| format.channels > 1);
     let frame = Frame::choose(format.channels, columns)?;
     let pair_bytes = (frame.channels * format.code.sample_bytes()) as u64;
     let available = length.map(|length| length.saturating_sub(start));
-    let promised = data.promised(pair_bytes, length);
+    let promised = promised(sizes, pair_bytes, length);
     let bytes = match (promised, available) {
         (Some(promised), Some(available)) => Some(promised.min(available)),
         (promised, available) => promised.or(available),
@@ -76,24 +76,19 @@ struct Format {
     rate: u32,
 }
 
-/// The sizes of the file and of its data by the header.
-struct Data {
-    riff_bytes: u64,
-    data_bytes: u64,
-}
+/// The sizes of the file and of its data by the header, bytes.
+type Sizes = [u64; 2];
 
-impl Data {
-    /// The bytes of data there should be; none if they go on to the end of the file.
-    fn promised(&self, pair_bytes: u64, length: Option<u64>) -> Option<u64> {
-        let sox = SOX_UNKNOWN - pair_bytes + 1..=SOX_UNKNOWN;
-        let unknown = match self.data_bytes {
-            // A finished file without samples states its own size correctly; an unfinished one does not.
-            0 => length.is_none_or(|length| self.riff_bytes.saturating_add(8) != length),
-            ARECORD_UNKNOWN | u64::MAX => true,
-            bytes => sox.contains(&bytes) || (UNKNOWN - pair_bytes..=UNKNOWN).contains(&bytes),
-        };
-        (!unknown).then_some(self.data_bytes)
-    }
+/// The bytes of data there should be; none if they go on to the end of the file.
+fn promised([of_riff, of_data]: Sizes, pair_bytes: u64, length: Option<u64>) -> Option<u64> {
+    let sox = SOX_UNKNOWN - pair_bytes + 1..=SOX_UNKNOWN;
+    let unknown = match of_data {
+        // A finished file without samples states its own size correctly; an unfinished one does not.
+        0 => length.is_none_or(|length| of_riff.saturating_add(8) != length),
+        ARECORD_UNKNOWN | u64::MAX => true,
+        bytes => sox.contains(&bytes) || (UNKNOWN - pair_bytes..=UNKNOWN).contains(&bytes),
+    };
+    (!unknown).then_some(of_data)
 }
 
 /// Reads a header and counts its bytes.
@@ -103,7 +98,7 @@ struct Reader {
 }
 
 impl Reader {
-    fn read(&mut self) -> Result<(Format, Data), Fault> {
+    fn read(&mut self) -> Result<(Format, Sizes), Fault> {
         let [riff, size, wave] = self.words()?;
         if wave != *b"WAVE" || riff == *b"RIFX" {
             return Err(damaged("it is big-endian (RIFX)"));
@@ -132,13 +127,7 @@ impl Reader {
                     } else {
                         size
                     };
-                    return Ok((
-                        format,
-                        Data {
-                            riff_bytes,
-                            data_bytes,
-                        },
-                    ));
+                    return Ok((format, [riff_bytes, data_bytes]));
                 }
                 _ => {
                     self.chunk(size, 0)?;

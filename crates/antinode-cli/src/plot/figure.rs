@@ -3,10 +3,9 @@
 use std::ops::Range;
 
 use super::axis::{Axis, Scale};
-use super::extent::Extent;
 use super::panel::{Panel, panel};
 use super::reduce::column;
-use super::rows::{QUANTITIES, Row, Trace, Trust};
+use super::rows::{QUANTITIES, Row, Trace, Trust, span};
 
 /// Length of the time axis of a single row, s.
 const SINGLE_ROW: f64 = 1.0;
@@ -28,19 +27,11 @@ pub struct Figure {
 /// a number.
 pub fn figure(traces: &[Trace], columns: usize, is_log: bool) -> Option<Figure> {
     let rows = || traces.iter().flat_map(|trace| &trace.rows);
-    let mut extent = Extent::new();
-    for row in rows() {
-        extent.add(row.time, 0.0, true);
-    }
-    let span = extent.range(0.0, MARGIN)?;
-    let span = match span.is_empty() {
-        true => extent.range(SINGLE_ROW, MARGIN)?,
-        false => span,
-    };
-    let (scale, title) = time_scale(
-        &span,
-        rows().map(|row| row.time).fold(f64::INFINITY, f64::min),
-    );
+    let [first, last] = span(traces)?;
+    let missing = if last > first { 0.0 } else { SINGLE_ROW / 2.0 };
+    let margin = MARGIN * (last - first + 2.0 * missing);
+    let span = first - missing - margin..last + missing + margin;
+    let (scale, title) = time_scale(&span, first);
     let time = scale.axis(title, &span);
     let panels: Vec<_> = (0..QUANTITIES.len())
         .map(|quantity| panel(traces, quantity, is_log, (&span, scale, columns)))

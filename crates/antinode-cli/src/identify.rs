@@ -105,12 +105,12 @@ fn identify(
     rows: &mut Rows<impl Write>,
 ) -> Result<(), Failure> {
     let (mut recording, rate) = open(path, options)?;
-    let name = recording.name().to_owned();
+    let name = recording.name.clone();
     let mut windows = Windows::new(&name, options, &recording, rate, stop)?;
     stop.begin(&name, FlagCounts::new(options.hum, options.coloured));
-    let pairs = recording.pairs();
+    let pairs = recording.opened.pairs;
     let length = pairs.map_or(String::new(), |pairs| format!(", {pairs} sample pairs"));
-    let title = format!("{name}: {}{length} at {rate} Hz", recording.format());
+    let title = format!("{name}: {}{length} at {rate} Hz", recording.opened.format);
     // With several files, each table has a title.
     let several = options.files.len() > 1;
     let is_watched = io::stderr().is_terminal() && !(several && format == Format::Table);
@@ -165,20 +165,20 @@ fn open(path: &Path, options: &Identify) -> Result<(Recording, f64), Failure> {
         rate: options.rate,
     };
     let mut recording = Recording::open(path, &open)?;
-    if options.rate.or(recording.sample_rate()).is_none() && !is_pipe(&recording) {
+    if options.rate.or(recording.opened.sample_rate).is_none() && !is_pipe(&recording) {
         // A fault in the first lines may be why the rate is unknown: the second read returns the fault that ended the first.
         let mut buffer = Vec::with_capacity(BLOCK_PAIRS);
         for _ in 0..2 {
             recording.read(&mut buffer)?;
         }
     }
-    let name = recording.name();
-    let rate = sample_rate(name, options.rate, recording.sample_rate())?;
+    let name = &recording.name;
+    let rate = sample_rate(name, options.rate, recording.opened.sample_rate)?;
     let rails = options.full_scale;
     if let Some(warning) = rails.and_then(|rails| recording.rails_warning(rails)) {
         tell(format_args!("warning: {name}: {warning}"));
     }
-    for warning in recording.warnings() {
+    for warning in &recording.opened.warnings {
         tell(format_args!("warning: {warning}"));
     }
     Ok((recording, rate))
@@ -186,7 +186,7 @@ fn open(path: &Path, options: &Identify) -> Result<(Recording, f64), Failure> {
 
 /// True for a stream, whose samples may arrive slowly and never end.
 fn is_pipe(recording: &Recording) -> bool {
-    recording.bytes_total().is_none()
+    recording.bytes_total.is_none()
 }
 
 /// The rate given by `--rate`, or else the recording's own, if plausible.
@@ -205,7 +205,7 @@ fn sample_rate(name: &str, asked: Option<f64>, own: Option<f64>) -> Result<f64, 
 
 /// A progress bar for a large file whose rows are not shown on the terminal; hidden otherwise.
 fn progress(recording: &Recording, is_shown: bool) -> ProgressBar {
-    match recording.bytes_total() {
+    match recording.bytes_total {
         Some(total) if total > LARGE_FILE && !is_shown => progress::bar(
             total,
             "{wide_bar} {bytes}/{total_bytes} {bytes_per_sec} {eta}",

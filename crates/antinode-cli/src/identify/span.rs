@@ -41,7 +41,7 @@ pub(super) struct Span {
 impl Span {
     /// The span that is asked for, of a recording of this sample rate.
     pub fn new(options: &Identify, recording: &Recording, rate: f64) -> Self {
-        let start = recording.start();
+        let start = recording.opened.start;
         let number = |time: f64| ((time - start) * rate - ROUNDING).ceil().max(0.0) as u64;
         Self {
             asked: [options.from, options.to],

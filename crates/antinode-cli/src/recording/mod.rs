@@ -61,10 +61,13 @@ const MIN_UNIT: f32 = 1.0 / 2_147_483_648.0;
 
 /// A recording of S_C and S_D, read once from its beginning to its end in constant memory.
 pub struct Recording {
-    name: String,
-    bytes_total: Option<u64>,
+    /// The path, or "standard input".
+    pub name: String,
+    /// The size of the file, bytes; none for a pipe.
+    pub bytes_total: Option<u64>,
     bytes_read: Rc<Cell<u64>>,
-    opened: Opened,
+    /// What its header tells.
+    pub opened: Opened,
     /// Pairs read ahead to find the resolution, not yet delivered.
     head: std::vec::IntoIter<[f32; 2]>,
     /// Step between codes, as found in the first samples.
@@ -160,45 +163,10 @@ impl Recording {
         }
     }
 
-    /// The path, or "standard input".
-    pub fn name(&self) -> &str {
-        &self.name
-    }
-
-    /// The recording's format, in words.
-    pub fn format(&self) -> &str {
-        &self.opened.format
-    }
-
-    /// The sample rate in Hz from a WAV header or a time column.
-    pub fn sample_rate(&self) -> Option<f64> {
-        self.opened.sample_rate
-    }
-
-    /// The time of the first pair by the recording's own time column or settings, s; 0 if there are none, or only an index.
-    pub fn start(&self) -> f64 {
-        self.opened.start
-    }
-
-    /// Warnings about content that can be read but is hardly meant so, or is not read as it is written.
-    pub fn warnings(&self) -> &[String] {
-        &self.opened.warnings
-    }
-
     /// A warning that can be given only once all is read.
     pub fn late_warning(&self) -> Option<String> {
         let told = self.opened.source.text()?.late_warning()?;
         Some(format!("{}: {told}", self.name))
-    }
-
-    /// The number of pairs, if the format tells it; those that are there, if the header promises more.
-    pub fn pairs(&self) -> Option<u64> {
-        self.opened.pairs
-    }
-
-    /// The size of the file, bytes; none for a pipe.
-    pub fn bytes_total(&self) -> Option<u64> {
-        self.bytes_total
     }
 
     /// The bytes read so far.

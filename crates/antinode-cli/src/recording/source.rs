@@ -123,22 +123,25 @@ pub(super) struct Known {
 }
 
 /// A source, and what its header tells.
-pub(super) struct Opened {
-    pub source: Source,
+pub struct Opened {
+    pub(super) source: Source,
     /// The format, in words.
     pub format: String,
+    /// The sample rate in Hz from a WAV header or a time column.
     pub sample_rate: Option<f64>,
-    /// The time of the first pair, s.
+    /// The time of the first pair by the recording's own time column or settings, s; 0 if there are none, or only an index.
     pub start: f64,
+    /// Warnings about content that can be read but is hardly meant so, or is not read as it is written.
     pub warnings: Vec<String>,
+    /// The number of pairs, if the format tells it; those that are there, if the header promises more.
     pub pairs: Option<u64>,
     /// How integers are stored; none for floats and text.
-    pub integers: Option<SampleCode>,
+    pub(super) integers: Option<SampleCode>,
 }
 
 impl Opened {
     /// A source of binary samples, of `pairs` pairs if known, whose format does not tell their rate.
-    pub fn of_samples(format: &str, code: SampleCode, source: Source, pairs: Option<u64>) -> Self {
+    pub(super) fn of_samples(format: &str, code: SampleCode, source: Source, pairs: Option<u64>) -> Self {
         Self {
             source,
             format: format!("{format} {}", code.words()),

@@ -47,12 +47,12 @@ fn every_layout_is_read() {
         let (_directory, path) = file("a.npy", &bytes);
         let mut recording = Recording::open(&path, &OpenOptions::default()).unwrap();
         assert_eq!(
-            (recording.pairs(), recording.sample_rate()),
+            (recording.opened.pairs, recording.opened.sample_rate),
             (Some(3), None)
         );
         assert_eq!(recording.full_scale(), Some(32_767.0 / 32_768.0));
         drain(&mut recording);
-        assert_eq!(Some(recording.bytes_read()), recording.bytes_total());
+        assert_eq!(Some(recording.bytes_read()), recording.bytes_total);
     }
 }
 
@@ -250,7 +250,7 @@ fn what_numpy_writes_is_read() {
                 .status();
             assert!(made.unwrap().success(), "{stack} {dtype}");
             let mut recording = Recording::open(&path, &OpenOptions::default()).unwrap();
-            assert_eq!(recording.pairs(), Some(50_000));
+            assert_eq!(recording.opened.pairs, Some(50_000));
             let (pairs, fault) = drain(&mut recording);
             assert!(fault.is_none());
             assert_eq!(pairs.len(), 50_000);

@@ -120,11 +120,11 @@ fn every_sample_format_is_read() {
 fn the_header_tells_rate_size_and_rail() {
     let recording = wav(format(1, 2, 16), &[0; 40]).open();
     assert_eq!(
-        (recording.sample_rate(), recording.pairs()),
+        (recording.opened.sample_rate, recording.opened.pairs),
         (Some(100_000.0), Some(10))
     );
     assert_eq!(
-        (recording.bytes_total(), recording.bytes_read()),
+        (recording.bytes_total, recording.bytes_read()),
         // A file's first samples are looked at, which a pipe's are not.
         (Some(84), 84)
     );
@@ -136,7 +136,7 @@ fn the_header_tells_rate_size_and_rail() {
     );
     let mut no_rate = wav(format(1, 2, 16), &[0; 40]);
     no_rate.format[4..8].fill(0);
-    assert_eq!(no_rate.open().sample_rate(), None);
+    assert_eq!(no_rate.open().opened.sample_rate, None);
 }
 
 #[test]
@@ -160,7 +160,7 @@ fn data_of_a_length_never_filled_in_go_on_to_the_end() {
     for size in [0, 0xffff_ffff, 0xffff_fffc, 0x7fff_f000, 0x8000_0000] {
         let mut streamed = wav(format(1, 2, 16), &[PAIR_16; 3].concat());
         streamed.size = size;
-        assert_eq!(streamed.open().pairs(), Some(3));
+        assert_eq!(streamed.open().opened.pairs, Some(3));
         assert_eq!(streamed.read(), (vec![[0.5, -1.0]; 3], None), "{size:#x}");
     }
     let mut streamed = wav(format(1, 2, 24), &[0; 12]);
@@ -211,7 +211,7 @@ fn a_pipe_needs_no_length() {
         .expect("a good header");
         Recording::new("pipe".to_owned(), opened, None)
     };
-    assert_eq!(open(&piped).pairs(), None);
+    assert_eq!(open(&piped).opened.pairs, None);
     assert_eq!(drain(&mut open(&piped)).0.len(), 500);
     // Samples that have come are not held back for those still to come.
     assert_eq!(
@@ -219,7 +219,7 @@ fn a_pipe_needs_no_length() {
         Some(1)
     );
     piped.size = 4000;
-    assert_eq!(open(&piped).pairs(), Some(1000));
+    assert_eq!(open(&piped).opened.pairs, Some(1000));
     assert!(
         message(drain(&mut open(&piped)).1).starts_with(
             "pipe: at its end: the header promises 1000 sample pairs, but there are 500"

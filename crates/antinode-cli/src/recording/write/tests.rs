@@ -50,7 +50,7 @@ fn written_recordings_are_read_back() {
             } else {
                 Some(100_000.0)
             };
-            assert_eq!(recording.sample_rate(), rate);
+            assert_eq!(recording.opened.sample_rate, rate);
             let (read, fault) = drain(&mut recording);
             assert!(fault.is_none());
             assert_eq!(read.len(), pairs.len());

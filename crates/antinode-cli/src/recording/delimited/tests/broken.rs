@@ -127,8 +127,8 @@ fn behind_a_line_that_is_cut_a_rising_signal_is_no_time() {
     let (pairs, fault) = drain(&mut recording);
     assert_eq!((pairs.len(), fault.is_none()), (20, true));
     assert_eq!(pairs[0], [0.1, 0.5]);
-    let [warning] = recording.warnings() else {
-        panic!("{:?}", recording.warnings());
+    let [warning] = &recording.opened.warnings[..] else {
+        panic!("{:?}", recording.opened.warnings);
     };
     assert!(warning.contains("a.csv: line 1 seems to lack its beginning"));
 }

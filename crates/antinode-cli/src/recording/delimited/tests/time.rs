@@ -8,7 +8,8 @@ fn rate(text: &str) -> Option<f64> {
     let (_directory, path) = file("a.csv", text.as_bytes());
     Recording::open(&path, &OpenOptions::default())
         .expect("a good recording")
-        .sample_rate()
+        .opened
+        .sample_rate
 }
 
 #[test]
@@ -44,7 +45,7 @@ fn the_time_may_have_a_unit() {
     // A µ of an older encoding.
     let (_directory, path) = file("a.csv", b"time,c,d\n(\xb5s),V,V\n0,1,2\n4.000,3,4\n");
     let recording = Recording::open(&path, &OpenOptions::default()).unwrap();
-    assert_eq!(recording.sample_rate(), Some(250e3));
+    assert_eq!(recording.opened.sample_rate, Some(250e3));
 }
 
 #[test]

@@ -55,6 +55,6 @@ fn unsigned_integers_have_the_rails_and_the_step_of_signed_ones() {
         let step = (1.0 - f32::from(bits as u8)).exp2();
         let found = (recording.full_scale(), recording.resolution());
         assert_eq!(found, (Some(1.0 - step), Some(step)), "{descr}");
-        assert_eq!(recording.format(), words);
+        assert_eq!(recording.opened.format, words);
     }
 }

@@ -7,7 +7,7 @@ use crate::recording::tests::read;
 fn truncated_data_are_delivered_before_the_error() {
     let mut cut = wav(format(1, 2, 16), &[PAIR_16; 3].concat());
     cut.size = 40;
-    assert_eq!(cut.open().pairs(), Some(3));
+    assert_eq!(cut.open().opened.pairs, Some(3));
     let (pairs, fault) = cut.read();
     assert_eq!(pairs, [[0.5, -1.0]; 3]);
     let expected =

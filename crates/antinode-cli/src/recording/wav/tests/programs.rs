@@ -52,7 +52,7 @@ fn what_sox_and_scipy_write_is_read() {
     let check = |tolerance: f32| {
         let mut recording = Recording::open(&path, &OpenOptions::default()).unwrap();
         assert_eq!(
-            (recording.sample_rate(), recording.pairs()),
+            (recording.opened.sample_rate, recording.opened.pairs),
             (Some(100_000.0), Some(1000))
         );
         let (pairs, fault) = drain(&mut recording);

@@ -1,15 +1,14 @@
 //! Checks of a recording's samples and rows, as they pass, for faults that the rows do not show; each gives a warning.
 
-pub(super) mod constant_pick_off;
 mod converter_step;
 mod cut_off;
+pub(super) mod equal_samples;
 mod few_values;
 pub(super) mod flag_counts;
 mod mains_ripple;
 mod pick_off_without_wave;
 mod rounded_offset;
 mod row_scatter;
-mod same_signal_twice;
 mod sampled_in_turn;
 mod silence;
 
@@ -18,15 +17,14 @@ use antinode::{Estimate, Flags, Settings};
 use super::options::Identify;
 use super::span::Span;
 use crate::recording::Recording;
-use constant_pick_off::ConstantPickOff;
 use converter_step::ConverterStep;
 use cut_off::CutOff;
+use equal_samples::EqualSamples;
 use few_values::FewValues;
 use mains_ripple::MainsRipple;
 use pick_off_without_wave::PickOffWithoutWave;
 use rounded_offset::RoundedOffset;
 use row_scatter::RowScatter;
-use same_signal_twice::SameSignalTwice;
 use sampled_in_turn::SampledInTurn;
 use silence::Silence;
 
@@ -34,15 +32,14 @@ use silence::Silence;
 #[derive(Debug)]
 pub(super) struct Remarks {
     settings: Settings,
-    pub constant_pick_off: ConstantPickOff,
     converter_step: ConverterStep,
     cut_off: CutOff,
+    pub equal_samples: EqualSamples,
     few_values: FewValues,
     mains_ripple: MainsRipple,
     pick_off_without_wave: PickOffWithoutWave,
     rounded_offset: RoundedOffset,
     row_scatter: RowScatter,
-    same_signal_twice: SameSignalTwice,
     sampled_in_turn: SampledInTurn,
     silence: Silence,
     rows: u64,
@@ -58,15 +55,14 @@ impl Remarks {
         let found = recording.resolution();
         Self {
             settings,
-            constant_pick_off: ConstantPickOff::default(),
             converter_step: ConverterStep::new(found.filter(|_| options.resolution.is_none())),
             cut_off: CutOff::new(settings.resolution),
+            equal_samples: EqualSamples::default(),
             few_values: FewValues::new(settings.resolution),
             mains_ripple: MainsRipple::new(settings.hum),
             pick_off_without_wave: PickOffWithoutWave::default(),
             rounded_offset: RoundedOffset::default(),
             row_scatter: RowScatter::new(settings.resolution),
-            same_signal_twice: SameSignalTwice::default(),
             sampled_in_turn: SampledInTurn::default(),
             silence: Silence::default(),
             rows: 0,
@@ -78,10 +74,9 @@ impl Remarks {
 
     /// Takes the next pairs.
     pub fn see(&mut self, pairs: &[[f32; 2]]) {
-        self.constant_pick_off.see(pairs);
+        self.equal_samples.see(pairs);
         self.few_values.see(pairs);
         self.cut_off.see(pairs);
-        self.same_signal_twice.see(pairs);
     }
 
     /// Takes a row.
@@ -112,8 +107,8 @@ impl Remarks {
     pub fn early_warnings(&mut self, step: Option<f32>) -> impl Iterator<Item = String> {
         self.has_warned_early = true;
         // If there are rows, their flags show a constant pick-off.
-        let constant = self.constant_pick_off.warning().filter(|_| self.rows == 0);
-        let early = constant.or_else(|| self.same_signal_twice.warning());
+        let constant = self.equal_samples.constant().filter(|_| self.rows == 0);
+        let early = constant.or_else(|| self.equal_samples.same_twice());
         let step = self.converter_step.warning(step, self.residual);
         early.into_iter().chain(step)
     }
@@ -127,8 +122,8 @@ impl Remarks {
     ) -> impl Iterator<Item = String> {
         let has_rows = self.rows > 0;
         let has_option = self.settings.hum || self.settings.coloured;
-        let constant = self.constant_pick_off.warning().filter(|_| has_rows);
-        let is_same_known = self.has_warned_early || self.constant_pick_off.are_both_constant();
+        let constant = self.equal_samples.constant().filter(|_| has_rows);
+        let is_same_known = self.has_warned_early || self.equal_samples.are_both_constant();
         [
             span.coarse_time(self.frequency),
             self.silence.warning(seconds, span.offset()),
@@ -139,7 +134,7 @@ impl Remarks {
                 .or_else(|| self.row_scatter.warning(has_option)),
             self.sampled_in_turn.warning(),
             constant.or_else(|| self.pick_off_without_wave.warning()),
-            self.same_signal_twice.warning().filter(|_| !is_same_known),
+            self.equal_samples.same_twice().filter(|_| !is_same_known),
         ]
         .into_iter()
         .flatten()

@@ -4,7 +4,7 @@ pub(super) mod unsearched_wave;
 
 use super::first_pairs::{amplitude_beyond, large_offset};
 use super::options::{Detector, Identify};
-use super::remarks::constant_pick_off::ConstantPickOff;
+use super::remarks::equal_samples::EqualSamples;
 use super::{Core, LONGEST_PERIOD, SHORTEST_PERIOD};
 use unsearched_wave::UnsearchedWave;
 
@@ -61,12 +61,12 @@ impl Search {
         rate: f64,
         core: &Core,
         options: &Identify,
-        constant: &ConstantPickOff,
+        equal: &EqualSamples,
     ) -> String {
         let pairs = core.index();
         let all = format!("{pairs} sample pairs ({:.4} s)", pairs as f64 / rate);
         let periods = options.periods;
-        if let Some(warning) = constant.warning().filter(|_| constant.are_both_constant()) {
+        if let Some(warning) = equal.constant().filter(|_| equal.are_both_constant()) {
             let sought = if core.is_searching() {
                 "period"
             } else {
@@ -108,7 +108,7 @@ impl Search {
             let cause = cause.unwrap_or_else(|| causes_without_period(options.detector));
             format!("no period found in {all}: {cause}")
         };
-        why + &also(constant.warning())
+        why + &also(equal.constant())
     }
 
     /// A warning if the offset is too large for single precision.

@@ -208,10 +208,10 @@ impl<'a> Windows<'a> {
             None if flushed.is_err() => flushed.err(),
             None if rows.count() > 0 || mistaken.is_some() => None,
             None => Some(self.span.missing(name).unwrap_or_else(|| {
-                let constant = &self.remarks.constant_pick_off;
+                let equal = &self.remarks.equal_samples;
                 let why = self
                     .search
-                    .no_rows(self.rate, &self.core, self.options, constant);
+                    .no_rows(self.rate, &self.core, self.options, equal);
                 Failure::Fault(format!("{name}: {why}"))
             })),
         };

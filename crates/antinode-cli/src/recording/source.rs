@@ -141,7 +141,12 @@ pub struct Opened {
 
 impl Opened {
     /// A source of binary samples, of `pairs` pairs if known, whose format does not tell their rate.
-    pub(super) fn of_samples(format: &str, code: SampleCode, source: Source, pairs: Option<u64>) -> Self {
+    pub(super) fn of_samples(
+        format: &str,
+        code: SampleCode,
+        source: Source,
+        pairs: Option<u64>,
+    ) -> Self {
         Self {
             source,
             format: format!("{format} {}", code.words()),

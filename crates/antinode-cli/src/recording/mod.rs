@@ -83,48 +83,32 @@ pub struct Recording {
 impl Recording {
     /// Opens a file or pipe by its content or else its extension, or standard input if `path` is `-`.
     pub fn open(path: &Path, options: &OpenOptions) -> Result<Self, Failure> {
-        if path == Path::new("-") {
-            return Self::standard_input(options);
-        }
-        let name = path.display().to_string();
-        let io = |fault| unreadable(&name, fault);
-        let file = open_file(path)?;
-        let metadata = file.metadata().map_err(io)?;
-        let length = metadata.is_file().then_some(metadata.len());
-        let again = length.map(|_| file.try_clone()).transpose().map_err(io)?;
-        let known = Known {
-            is_named: true,
-            extension: extension(path),
-            length,
-            again,
-            read: Rc::default(),
+        let (name, stream, known): (_, Stream, _) = if path == Path::new("-") {
+            let (name, stdin) = (STANDARD_INPUT.to_owned(), io::stdin());
+            let is_described = options.raw.is_some() || options.columns.is_some();
+            if !is_described && stdin.is_terminal() {
+                let told = "this is a terminal; pipe a recording into the command, or name a file";
+                return Err(Fault::new(told).of(&name));
+            }
+            (name, Box::new(stdin), Known::default())
+        } else {
+            let name = path.display().to_string();
+            let io = |fault| unreadable(&name, fault);
+            let file = open_file(path)?;
+            let metadata = file.metadata().map_err(io)?;
+            let length = metadata.is_file().then_some(metadata.len());
+            let known = Known {
+                is_named: true,
+                extension: extension(path),
+                length,
+                again: length.map(|_| file.try_clone()).transpose().map_err(io)?,
+                read: Rc::default(),
+            };
+            (name, Box::new(file), known)
         };
-        Self::of_stream(name, Box::new(file), known, options)
-    }
-
-    fn standard_input(options: &OpenOptions) -> Result<Self, Failure> {
-        let name = STANDARD_INPUT.to_owned();
-        let stdin = io::stdin();
-        let is_described = options.raw.is_some() || options.columns.is_some();
-        if !is_described && stdin.is_terminal() {
-            return Err(Fault::new(
-                "this is a terminal; pipe a recording into the command, or name a file",
-            )
-            .of(&name));
-        }
-        Self::of_stream(name, Box::new(stdin), Known::default(), options)
-    }
-
-    fn of_stream(
-        name: String,
-        stream: Stream,
-        known: Known,
-        options: &OpenOptions,
-    ) -> Result<Self, Failure> {
         let (length, bytes_read) = (known.length, Rc::clone(&known.read));
         let count = Rc::clone(&known.read);
-        let stream = Box::new(Counted { stream, count });
-        match by_content::open(stream, known, options) {
+        match by_content::open(Box::new(Counted { stream, count }), known, options) {
             Ok(opened) => Ok(Self {
                 bytes_read,
                 ..Self::new(name, opened, length)

@@ -32,7 +32,7 @@ pub const EXPLAINED: f64 = 1.5;
 pub const MIN_ROWS: usize = 12;
 
 /// The runs of all rows, and what was left out.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Runs {
     pub runs: Vec<Run>,
     /// Rows read within the times asked for, including flagged ones.
@@ -80,15 +80,10 @@ impl Runs {
 
     fn new(asked: Range<f64>, max_turn: f64, breaks: Flags) -> Self {
         Self {
-            runs: Vec::new(),
-            rows: 0,
-            span: None,
             asked,
-            overlapping: 0,
-            backward: 0,
-            steps: Vec::new(),
             max_turn,
             breaks,
+            ..Self::default()
         }
     }
 

@@ -9,6 +9,7 @@ use antinode_sim::{Bound, Wave};
 pub const NAMES: [&str; 4] = ["main amplitude", "quadrature", "angle, °", "frequency, Hz"];
 
 /// Sums of squared errors and of squared Cramér–Rao bounds.
+#[derive(Default)]
 pub struct Score {
     noise: f64,
     sample_rate: f64,
@@ -23,9 +24,7 @@ impl Score {
         Self {
             noise,
             sample_rate,
-            windows: 0,
-            errors: [0.0; 4],
-            bounds: [0.0; 4],
+            ..Self::default()
         }
     }
 

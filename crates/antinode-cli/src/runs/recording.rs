@@ -14,6 +14,7 @@ const MIN_WORSE: f64 = 2.0;
 const MAX_VAGUE: usize = 20;
 
 /// A recording whose rows are being read.
+#[derive(Default)]
 pub(super) struct Recording {
     /// Its name, as in its rows.
     pub file: String,
@@ -39,14 +40,7 @@ impl Recording {
     pub fn new(file: &str) -> Self {
         Self {
             file: file.to_owned(),
-            runs: Vec::new(),
-            steps: Vec::new(),
-            overlapping: 0,
-            backward: 0,
-            run: Run::default(),
-            torn: None,
-            circles: Vec::new(),
-            between: Vec::new(),
+            ..Self::default()
         }
     }
 

@@ -215,11 +215,9 @@ impl Planes {
         }
         let [c, d, both] = &mut self.chunks;
         both.clear();
-        match size {
-            1 => interleave::<1>(c, d, both),
-            2 => interleave::<2>(c, d, both),
-            4 => interleave::<4>(c, d, both),
-            _ => interleave::<8>(c, d, both),
+        for (c, d) in c.chunks_exact(size).zip(d.chunks_exact(size)) {
+            both.extend_from_slice(c);
+            both.extend_from_slice(d);
         }
         Ok(())
     }
@@ -242,13 +240,6 @@ impl Planes {
             self.read += count as u64;
         }
         Ok(())
-    }
-}
-
-fn interleave<const N: usize>(c: &[u8], d: &[u8], both: &mut Vec<u8>) {
-    for (c, d) in c.as_chunks::<N>().0.iter().zip(d.as_chunks::<N>().0) {
-        both.extend_from_slice(c);
-        both.extend_from_slice(d);
     }
 }
 

@@ -27,17 +27,6 @@ pub(super) struct Header {
     pub warnings: Vec<String>,
 }
 
-/// What was found in the names and a line of units below them.
-#[derive(Default)]
-struct FoundUnits {
-    /// Whether the time's unit was found.
-    has_time: bool,
-    /// The units of S_C and S_D, their line, and whether they are surely units.
-    signals: [String; 2],
-    line: u64,
-    are_sure: bool,
-}
-
 impl Header {
     /// Reads the names and the units, if there are any, and leaves the samples to be read; `beginning` shows the lines ahead.
     pub fn read(
@@ -87,58 +76,52 @@ impl Header {
         header.warnings.extend(start.cut.map(|line| format!(
             "line {line} seems to lack its beginning, as if the logger had been attached in the middle of it, and is left out"
         )));
-        let found = match names {
-            Some(names) => header.find_units(lines, names, below, counted)?,
-            None => FoundUnits::default(),
+        let has_unit_of_time = match names {
+            Some(names) => header.read_units(lines, names, below, counted)?,
+            None => false,
         };
-        let doubt = if found.has_time {
-            None
-        } else {
-            header.doubt_time(names, start)?
-        };
-        header.bring_together(found)?;
-        header.warnings.extend(doubt);
+        if !has_unit_of_time {
+            let doubt = header.doubt_time(names, start)?;
+            header.warnings.extend(doubt);
+        }
         Ok(header)
     }
 
-    /// Reads the line of the names, and finds the units in these and in the fields `below` them; reads that line too if it holds units.
-    fn find_units(
+    /// Reads the line of the names, and the units in these and in the fields `below` them; reads that line too if it holds units. Whether
+    /// there is one of time.
+    fn read_units(
         &mut self,
         lines: &mut Lines,
         names: &[String],
         below: Vec<String>,
         counted: Option<Counted>,
-    ) -> Result<FoundUnits, Fault> {
+    ) -> Result<bool, Fault> {
         lines.advance()?;
         let name = |role: usize| self.places[role].map_or("", |place| &names[place]);
         let (time, signals) = (name(0), [name(1), name(2)]);
-        let line = lines.number();
-        let mut found = FoundUnits {
-            has_time: self.set_unit(line, of_name(time), time)?,
-            signals: signals.map(|name| of_name(name).to_owned()),
-            line,
-            // Outside of brackets, the end of a name may be a label.
-            are_sure: signals.iter().all(|name| is_bracketed(name)),
-        };
         let own = [1, 2].map(|role| {
             let unit = self.places[role].and_then(|place| below.get(place));
             unit.map_or(String::new(), |unit| bare(unit).to_owned())
         });
-        let Some(unit) = self.units(below, counted, lines.separator) else {
-            return Ok(found);
-        };
-        lines.advance()?;
-        let line = lines.number();
-        let is_of_time = self.set_unit(line, &unit, &unit)?;
-        // Brackets hold a unit: one that is not known cannot be taken for seconds.
-        if !is_of_time && is_bracketed(&unit) {
-            return Err(self.unit_fault(line, &unit));
+        let mut has_time = self.set_unit(lines.number(), of_name(time), time)?;
+        let mut units = signals.map(|name| of_name(name).to_owned());
+        // Outside of brackets, the end of a name may be a label.
+        let mut are_sure = signals.iter().all(|name| is_bracketed(name));
+        let mut line = lines.number();
+        if let Some(unit) = self.units(below, counted, lines.separator) {
+            lines.advance()?;
+            let is_of_time = self.set_unit(lines.number(), &unit, &unit)?;
+            // Brackets hold a unit: one that is not known cannot be taken for seconds.
+            if !is_of_time && is_bracketed(&unit) {
+                return Err(self.unit_fault(lines.number(), &unit));
+            }
+            has_time |= is_of_time;
+            if own.iter().any(|unit| !unit.is_empty()) {
+                (units, are_sure, line) = (own, true, lines.number());
+            }
         }
-        found.has_time |= is_of_time;
-        if own.iter().any(|unit| !unit.is_empty()) {
-            (found.signals, found.line, found.are_sure) = (own, line, true);
-        }
-        Ok(found)
+        self.bring_together(units.each_ref().map(String::as_str), are_sure, line)?;
+        Ok(has_time)
     }
 
     /// The warning about a time in brackets that hold no unit of time; fails if the settings give another unit than s.
@@ -165,9 +148,13 @@ impl Header {
     }
 
     /// Sets the divisors that bring both signals to one unit, and warns of them; fails if they measure different things.
-    fn bring_together(&mut self, found: FoundUnits) -> Result<(), Fault> {
-        let [c, d] = &found.signals;
-        let told = match together([c, d], found.are_sure) {
+    fn bring_together(
+        &mut self,
+        [c, d]: [&str; 2],
+        are_sure: bool,
+        line: u64,
+    ) -> Result<(), Fault> {
+        let told = match together([c, d], are_sure) {
             Together::Same => return Ok(()),
             Together::Divided(divisors) => {
                 self.divisors = divisors;
@@ -179,7 +166,7 @@ impl Header {
             }
             Together::Never => {
                 return Err(Fault::line(
-                    found.line,
+                    line,
                     format!(
                         "S_C is in {c} and S_D in {d}, which have no common unit; record the same quantity twice, correct the units in the file, \
                      or choose other columns with --columns"

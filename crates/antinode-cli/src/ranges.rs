@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 
 /// The number in `text`, if it lies within these limits; `unit`, if not empty, begins with a blank or a comma.
-fn within(text: &str, min: f64, max: f64, unit: &str) -> Result<f64, String> {
+pub fn within(text: &str, min: f64, max: f64, unit: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(number) if (min..=max).contains(&number) => Ok(number),
         _ => Err(format!("it must be {min} to {max}{unit}")),
@@ -27,29 +27,9 @@ pub fn rate(text: &str) -> Result<f64, String> {
     within(text, 1.0, 1e10, " Hz, 100000 for 100 kS/s")
 }
 
-/// A sample rate of the study, Hz: 5 to 190 samples a period.
-pub fn rate_of_study(text: &str) -> Result<f64, String> {
-    within(text, 27_000.0, 1e6, " Hz")
-}
-
-/// A quadrature amplitude beside a main amplitude of 2.
-pub fn quadrature_beside_two(text: &str) -> Result<f64, String> {
-    within(text, -1.9, 1.9, ", less than the main amplitude of 2")
-}
-
 /// An angle or a phase, rad.
 pub fn angle(text: &str) -> Result<f64, String> {
     within(text, -10.0, 10.0, " rad")
-}
-
-/// A noise above zero, %.
-pub fn percent(text: &str) -> Result<f64, String> {
-    within(text, 1e-3, 100.0, " %")
-}
-
-/// A time to wait, s.
-pub fn seconds(text: &str) -> Result<f64, String> {
-    within(text, 0.01, 3600.0, " s")
 }
 
 /// A time in a recording, s.
@@ -83,11 +63,6 @@ pub fn skew_ns(text: &str) -> Result<f32, String> {
 /// The difference of the pick-offs' angle from 45°, rad.
 pub fn pick_off_angle(text: &str) -> Result<f32, String> {
     within(text, -0.3, 0.3, " rad").map(|angle| angle as f32)
-}
-
-/// An angle to start from, rad.
-pub fn start_angle(text: &str) -> Result<f32, String> {
-    within(text, -1e4, 1e4, " rad").map(|angle| angle as f32)
 }
 
 /// A level or a step, in the input's unit.

@@ -24,7 +24,7 @@ pub struct Options {
     #[arg(long, global = true, default_value_t = BAUD, value_name = "BAUD", value_parser = value_parser!(u32).range(1..))]
     pub baud: u32,
     /// How long to wait for an answer, s; 0.01 to 3600. Unanswered commands are sent again, three times in all; `restart` is sent once.
-    #[arg(long, global = true, default_value_t = 2.0, value_name = "SECONDS", value_parser = ranges::seconds)]
+    #[arg(long, global = true, default_value_t = 2.0, value_name = "SECONDS", value_parser = |text: &str| ranges::within(text, 0.01, 3600.0, " s"))]
     pub timeout: f64,
     /// What the device is to do.
     #[command(subcommand)]

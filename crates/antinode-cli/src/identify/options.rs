@@ -87,7 +87,7 @@ pub struct Identify {
     pub detector: Detector,
     /// The pattern angle at the start, rad, known to π/4, because samples give it only modulo π/2; within ±10000 [default: π/4, so that the
     /// first window's angle lies in 0…π/2].
-    #[arg(long, value_name = "RAD", value_parser = ranges::start_angle, help_heading = "Windows")]
+    #[arg(long, value_name = "RAD", value_parser = |text: &str| ranges::within(text, -1e4, 1e4, " rad").map(|angle| angle as f32), help_heading = "Windows")]
     pub start_angle: Option<f32>,
     /// Remove mains hum or a wandering offset, which otherwise counts as noise or is flagged `misfit`.
     ///

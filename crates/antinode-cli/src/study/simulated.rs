@@ -6,7 +6,7 @@ use std::fmt;
 use antinode_sim::Wave;
 use clap::Args;
 
-use crate::ranges;
+use crate::ranges::{self, within};
 
 /// Steps of figure 3's noise, from 0 to the greatest.
 pub const STEPS: u32 = 20;
@@ -16,7 +16,7 @@ pub const STEPS: u32 = 20;
 #[command(next_help_heading = "What is simulated", allow_negative_numbers = true)]
 pub struct Simulated {
     /// Quadrature amplitude, signed, for a main amplitude of 2.
-    #[arg(long, default_value_t = Self::PAPER.quadrature_amplitude, value_name = "LEVEL", value_parser = ranges::quadrature_beside_two)]
+    #[arg(long, default_value_t = Self::PAPER.quadrature_amplitude, value_name = "LEVEL", value_parser = |text: &str| within(text, -1.9, 1.9, ", less than the main amplitude of 2"))]
     pub quadrature_amplitude: f64,
     /// Pattern angle, rad [default: π/6].
     #[arg(long, default_value_t = Self::PAPER.angle, hide_default_value = true, value_name = "RAD", value_parser = ranges::angle)]
@@ -24,14 +24,15 @@ pub struct Simulated {
     /// Phase at the first sample of a window, rad [default: π/6].
     #[arg(long, default_value_t = Self::PAPER.phase, hide_default_value = true, value_name = "RAD", value_parser = ranges::angle)]
     pub phase: f64,
+    // 5 to 190 samples a period.
     /// Sample rate, Hz, for a frequency of 5332 Hz; figure 2 has 1 to 10 times this rate.
-    #[arg(long, default_value_t = Self::PAPER.rate, value_name = "HZ", value_parser = ranges::rate_of_study)]
+    #[arg(long, default_value_t = Self::PAPER.rate, value_name = "HZ", value_parser = |text: &str| within(text, 27_000.0, 1e6, " Hz"))]
     pub rate: f64,
     /// Periods in a window of figure 3, 1 to 100.
     #[arg(long, default_value_t = Self::PAPER.periods, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100))]
     pub periods: u32,
     /// Greatest noise of figure 3, % of the main amplitude, rms per sample and channel.
-    #[arg(long, default_value_t = Self::PAPER.noise, value_name = "PERCENT", value_parser = ranges::percent)]
+    #[arg(long, default_value_t = Self::PAPER.noise, value_name = "PERCENT", value_parser = |text: &str| within(text, 1e-3, 100.0, " %"))]
     pub noise: f64,
 }
 

@@ -96,7 +96,7 @@ impl Line {
         for send in 1..=sends {
             self.port
                 .write_all(request)
-                .map_err(|error| self.gone(&error))?;
+                .map_err(|error| port::gone(&self.name, &error))?;
             let end = Instant::now() + self.patience;
             while Instant::now() < end {
                 for report in self.read()? {
@@ -138,16 +138,9 @@ impl Line {
             }
             Err(error) => match error.kind() {
                 io::ErrorKind::TimedOut | io::ErrorKind::Interrupted => Ok(Vec::new()),
-                _ => Err(self.gone(&error)),
+                _ => Err(port::gone(&self.name, &error)),
             },
         }
-    }
-
-    fn gone(&self, error: &io::Error) -> Failure {
-        Failure::Fault(format!(
-            "{}: the port fails: {error}; check that the device is plugged in",
-            self.name
-        ))
     }
 
     /// The failure if no acknowledgement came, with the likely cause by what did come.

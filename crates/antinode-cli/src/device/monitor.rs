@@ -9,7 +9,7 @@ use antinode_telemetry::{Command, CommandFrame, Damage, MAX_FRAME, Receiver, Rep
 use clap::Args;
 
 use super::source::{Input, Source};
-use super::{BAUD, describe};
+use super::{BAUD, describe, port};
 use crate::failure::Failure;
 use crate::options::Format;
 use crate::recording::unreadable;
@@ -104,9 +104,7 @@ fn follow(source: &Source, screen: &mut Screen<impl Write>) -> Result<(), Failur
                 screen.finish();
                 let name = &screen.name;
                 return Err(if source.is_port {
-                    Failure::Fault(format!(
-                        "{name}: the port fails: {error}; check that the device is plugged in"
-                    ))
+                    port::gone(name, &error)
                 } else {
                     unreadable(name, error)
                 });

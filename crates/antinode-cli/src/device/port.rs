@@ -66,6 +66,13 @@ pub fn open(path: &Path, baud: u32) -> Result<Box<dyn SerialPort>, Failure> {
     Err(Failure::Fault(format!("{name}: {what}")))
 }
 
+/// The failure of a port that worked before.
+pub fn gone(name: &str, error: &io::Error) -> Failure {
+    Failure::Fault(format!(
+        "{name}: the port fails: {error}; check that the device is plugged in"
+    ))
+}
+
 /// The advice to use one of this computer's ports, which it names.
 pub fn ports() -> String {
     // Where there is no such folder, as in some containers, looking for ports would panic.

@@ -51,7 +51,7 @@ impl Source {
             } else if path.is_file() || path.is_dir() {
                 (name, Box::new(open_file(path)?))
             } else if path.exists() {
-                (name, Box::new(Pipe::Named(path.to_owned())))
+                (name, Box::new(Pipe(path.to_owned(), None)))
             } else {
                 return Err(Failure::Fault(format!(
                     "{name}: there is no port and no file of this name; {}",
@@ -71,20 +71,15 @@ impl Source {
     }
 }
 
-/// A named pipe. Opening it waits for a writer, so the first read does that, in the thread that reads.
-enum Pipe {
-    Named(PathBuf),
-    Open(File),
-}
+/// A named pipe, and the file once it is open. Opening it waits for a writer, so the first read does that, in the thread that reads.
+struct Pipe(PathBuf, Option<File>);
 
 impl Read for Pipe {
     fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
-        if let Self::Named(path) = self {
-            *self = Self::Open(File::open(path)?);
-        }
-        match self {
-            Self::Named(_) => Ok(0),
-            Self::Open(file) => file.read(bytes),
+        let Self(path, open) = self;
+        match open {
+            Some(file) => file.read(bytes),
+            None => open.insert(File::open(path)?).read(bytes),
         }
     }
 }

@@ -175,11 +175,9 @@ fn open(path: &Path, options: &Identify) -> Result<(Recording, f64), Failure> {
     let name = &recording.name;
     let rate = sample_rate(name, options.rate, recording.opened.sample_rate)?;
     let rails = options.full_scale;
-    if let Some(warning) = rails.and_then(|rails| recording.rails_warning(rails)) {
+    let rails = rails.and_then(|rails| recording.rails_warning(rails));
+    for warning in rails.iter().chain(&recording.opened.warnings) {
         tell(format_args!("warning: {name}: {warning}"));
-    }
-    for warning in &recording.opened.warnings {
-        tell(format_args!("warning: {warning}"));
     }
     Ok((recording, rate))
 }

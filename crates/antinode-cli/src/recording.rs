@@ -118,9 +118,6 @@ impl Recording {
     }
 
     fn new(name: String, mut opened: Opened, bytes_total: Option<u64>) -> Self {
-        for warning in &mut opened.warnings {
-            *warning = format!("{name}: {warning}");
-        }
         let unit = opened.integers.map(|code| unit(code.full_scale()));
         let (head, step, fault) = if bytes_total.is_some() {
             // Found in the first samples that are not silent: integers, too, may come from a converter of fewer bits.
@@ -149,8 +146,7 @@ impl Recording {
 
     /// A warning that can be given only once all is read.
     pub fn late_warning(&self) -> Option<String> {
-        let told = self.opened.source.text()?.late_warning()?;
-        Some(format!("{}: {told}", self.name))
+        self.opened.source.text()?.late_warning()
     }
 
     /// The bytes read so far.

@@ -130,7 +130,7 @@ fn behind_a_line_that_is_cut_a_rising_signal_is_no_time() {
     let [warning] = &recording.opened.warnings[..] else {
         panic!("{:?}", recording.opened.warnings);
     };
-    assert!(warning.contains("a.csv: line 1 seems to lack its beginning"));
+    assert!(warning.starts_with("line 1 seems to lack its beginning"));
 }
 
 #[test]

@@ -272,22 +272,32 @@ fn names_may_be_numbers() {
 fn a_first_sample_is_never_taken_for_names() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    // Codes of a converter may begin as numbered columns do.
-    let mut text = "0,1\n".to_owned();
-    for k in 1..2000 {
-        let phase = FRAC_PI_2 * f64::from(k) / 4.7;
-        text += &format!("{:.0},{:.0}\n", 2000.0 * phase.sin(), 2000.0 * phase.cos());
-    }
-    let whole = format!("c,d\n{text}");
-    fs::write(here.join("bare.csv"), &text).unwrap();
-    fs::write(here.join("named.csv"), &whole).unwrap();
-    let told = |name: &str| run(here, &format!("identify {name} --rate 1e5 --periods 500")).err;
-    let count = |text: &str| {
-        let end = text
-            .find(" sample pairs")
-            .unwrap_or_else(|| panic!("{text}"));
-        text[..end].rsplit(' ').next().unwrap().to_owned()
+    // Codes of a converter, and a wave of amplitude 1 in shortest form: both begin as numbered columns do.
+    let wave = |scale: f64, digits: usize| {
+        let mut text = String::new();
+        for k in 0..2000 {
+            let phase = FRAC_PI_2 * f64::from(k) / 4.7;
+            let pair = [phase.sin(), phase.cos()].map(|x| scale * x);
+            let [c, d] = pair.map(|x| format!("{x:.digits$}").parse::<f64>().unwrap());
+            text += &format!("{c},{d}\n");
+        }
+        text
     };
-    assert_eq!(count(&told("bare.csv")), "2000");
-    assert_eq!(count(&told("named.csv")), "2000");
+    let codes = wave(2000.0, 0);
+    let codes = format!("0,1\n{}", codes.split_once('\n').unwrap().1);
+    for text in [wave(1.0, 6), codes] {
+        assert!(text.starts_with("0,1\n"));
+        let whole = format!("c,d\n{text}");
+        fs::write(here.join("bare.csv"), &text).unwrap();
+        fs::write(here.join("named.csv"), &whole).unwrap();
+        let told = |name: &str| run(here, &format!("identify {name} --rate 1e5 --periods 500")).err;
+        let count = |text: &str| {
+            let end = text
+                .find(" sample pairs")
+                .unwrap_or_else(|| panic!("{text}"));
+            text[..end].rsplit(' ').next().unwrap().to_owned()
+        };
+        assert_eq!(count(&told("bare.csv")), "2000");
+        assert_eq!(count(&told("named.csv")), "2000");
+    }
 }

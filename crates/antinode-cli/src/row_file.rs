@@ -22,6 +22,13 @@ const MAX_ABOVE_TABLE: usize = 4;
 /// Separators of fields: spreadsheets write a semicolon if their decimal mark is a comma, and a tab in files of text.
 const MARKS: [u8; 3] = [b',', b';', b'\t'];
 
+/// The keys that end what is typed, and their verb.
+const END_OF_INPUT: &str = if cfg!(windows) {
+    "Ctrl-Z and Enter end"
+} else {
+    "Ctrl-D ends"
+};
+
 /// All lines, beginning with those that were looked at to find the header.
 type Source = Lines<Chain<Cursor<Vec<u8>>, BufReader<Box<dyn Read>>>>;
 
@@ -46,7 +53,9 @@ impl RowFile {
     pub fn open(path: &Path) -> Result<Self, Failure> {
         let (name, source): (_, Box<dyn Read>) = if path == Path::new("-") {
             if io::stdin().is_terminal() {
-                tell("reading rows from standard input; Ctrl-D ends them");
+                tell(format_args!(
+                    "reading rows from standard input; {END_OF_INPUT} them"
+                ));
             }
             (STANDARD_INPUT.to_owned(), Box::new(io::stdin()))
         } else {

@@ -96,12 +96,10 @@ fn with_name(message: &str, file: &str) -> String {
     if file == STANDARD_INPUT {
         return message.to_owned();
     }
-    // A shell needs quotes around blanks, and around brackets, as in `a(1).wav`; within quotes a name stands as it is.
-    let is_plain = |letter: char| letter.is_alphanumeric() || "._-/\\:".contains(letter);
-    let quote = if file.chars().all(is_plain) { "" } else { "\"" };
+    // In quotes, which shells need around blanks, brackets and backslashes; within quotes a name stands as it is.
     message
         .replace("'FILE'", &format!("'{file}'"))
-        .replace(" FILE ", &format!(" {quote}{file}{quote} "))
+        .replace(" FILE ", &format!(" \"{file}\" "))
 }
 
 impl From<io::Error> for Fault {

@@ -126,7 +126,7 @@ fn samples_behind_the_end_by_the_header_are_not_lost_silently() {
         &[
             "half.wav",
             "promises 10000 sample pairs, but more follow",
-            "sox --ignore-length half.wav whole.wav",
+            "sox --ignore-length \"half.wav\" whole.wav",
         ],
     );
     assert!(found.len() > 45);

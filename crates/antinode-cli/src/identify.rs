@@ -11,7 +11,6 @@ mod stop;
 mod windows;
 
 use std::collections::HashSet;
-use std::fs;
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
@@ -22,7 +21,7 @@ use crate::failure::Failure;
 use crate::options::Format;
 use crate::progress;
 use crate::ranges::in_order;
-use crate::recording::{BLOCK_PAIRS, OpenOptions, Recording};
+use crate::recording::{BLOCK_PAIRS, OpenOptions, Recording, place};
 use crate::rows::Rows;
 use crate::tell::tell;
 pub use options::Identify;
@@ -90,7 +89,7 @@ pub fn run(options: &Identify) -> Result<(), Failure> {
 fn warn_of_duplicates(files: &[PathBuf]) {
     let mut seen = HashSet::new();
     for file in files {
-        if fs::canonicalize(file).is_ok_and(|one| !seen.insert(one)) {
+        if place(file).is_some_and(|one| !seen.insert(one)) {
             tell(format_args!("warning: {} is given twice", file.display()));
         }
     }

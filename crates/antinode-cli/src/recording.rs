@@ -34,6 +34,7 @@ mod wav;
 mod write;
 
 use std::cell::Cell;
+use std::fs::Metadata;
 use std::io::{self, IsTerminal};
 use std::path::Path;
 use std::rc::Rc;
@@ -48,7 +49,7 @@ pub use gaps::Gap;
 use not_finite::NotFinite;
 pub use sample::Kind;
 use source::{Counted, Known, Opened, Source, Stream};
-pub use source::{extension, in_utf8, open_file};
+pub use source::{extension, in_utf8, open_file, place};
 pub use write::{RecordingWriter, SampleFormat};
 
 use crate::failure::Failure;
@@ -95,8 +96,9 @@ impl Recording {
             let name = path.display().to_string();
             let io = |fault| unreadable(&name, fault);
             let file = open_file(path)?;
-            let metadata = file.metadata().map_err(io)?;
-            let length = metadata.is_file().then_some(metadata.len());
+            // Windows tells nothing of its devices and pipes.
+            let there = file.metadata().ok().filter(Metadata::is_file);
+            let length = there.map(|there| there.len());
             let known = Known {
                 is_named: true,
                 extension: extension(path),

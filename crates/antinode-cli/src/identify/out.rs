@@ -8,6 +8,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use super::options::Identify;
 use crate::digits::counted;
 use crate::failure::{Failure, unwritable};
+use crate::recording::place;
 use crate::tell::tell;
 use crate::whole_file::WholeFile;
 
@@ -82,8 +83,8 @@ impl Out {
 /// Rejects an output file that is one of the recordings.
 pub(super) fn check_is_no_input(options: &Identify) -> Result<(), Failure> {
     if let Some(path) = options.file()
-        && let Ok(there) = fs::canonicalize(path)
-        && let mut files = options.files.iter().flat_map(fs::canonicalize)
+        && let Some(there) = place(path)
+        && let mut files = options.files.iter().filter_map(|file| place(file))
         && files.any(|file| file == there)
     {
         return Err(Failure::Usage(format!(

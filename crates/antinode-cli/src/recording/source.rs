@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::fs::{self, File};
 use std::io::{self, Cursor, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 use encoding_rs_io::DecodeReaderBytesBuilder;
@@ -24,11 +24,22 @@ pub(super) type Stream = Box<dyn Read>;
 /// Opens a file or a pipe by its path; a directory is neither.
 pub fn open_file(path: &Path) -> Result<File, Failure> {
     let file = path.display().to_string();
-    match fs::metadata(path) {
-        Ok(metadata) if metadata.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
-        found => found.and_then(|_| File::open(path)),
+    // Opened before anything is asked of it: a pipe of Windows, which has a name, may serve but one opening.
+    let opened = File::open(path);
+    let is_directory = match &opened {
+        Ok(opened) => opened.metadata().is_ok_and(|there| there.is_dir()),
+        Err(_) => path.is_dir(),
+    };
+    if is_directory {
+        return Err(unreadable(&file, io::ErrorKind::IsADirectory.into()));
     }
-    .map_err(|fault| unreadable(&file, fault))
+    opened.map_err(|fault| unreadable(&file, fault))
+}
+
+/// The one path of a file that may have several; none if there is no such file, and for a device or pipe of Windows, as `open_file` says.
+pub fn place(path: &Path) -> Option<PathBuf> {
+    let is_device = path.as_os_str().as_encoded_bytes().starts_with(br"\\.\");
+    (!is_device).then(|| fs::canonicalize(path).ok()).flatten()
 }
 
 /// The ending of a file's name, in lower case; empty if there is none.

@@ -81,6 +81,14 @@ fn input_that_is_no_recording_is_refused() {
     );
 }
 
+#[cfg(windows)]
+#[test]
+fn a_device_of_windows_is_read_without_being_asked_what_it_is() {
+    let directory = tempfile::tempdir().unwrap();
+    let told = ["NUL: ", "nothing in it"];
+    assert!(fault(directory.path(), "NUL", Vec::new(), &told).is_empty());
+}
+
 #[test]
 fn a_truncated_recording_gives_its_good_rows() {
     let directory = tempfile::tempdir().unwrap();

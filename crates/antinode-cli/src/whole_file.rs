@@ -58,6 +58,9 @@ impl WholeFile {
                 "there is no directory `{directory}`; make it first, or correct the path"
             )));
         }
+        // From its root, with the mark without which Windows gives no file a path of more than 260 characters.
+        let directory = fs::canonicalize(directory).unwrap_or_else(|_| directory.to_owned());
+        let target = directory.join(target.file_name().unwrap_or_default());
         let mut builder = tempfile::Builder::new();
         // Encoders choose the format by the extension.
         let ending = target.extension().map_or(String::new(), |ending| {
@@ -70,7 +73,7 @@ impl WholeFile {
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         // The temporary name would tell the user nothing.
         let plain = |fault: io::Error| unwritable(&file, &fault.kind().into());
-        let (output, temporary) = builder.tempfile_in(directory).map_err(plain)?.into_parts();
+        let (output, temporary) = builder.tempfile_in(&directory).map_err(plain)?.into_parts();
         // Set while the file is empty, as others may not be allowed to read its content.
         if let Some(there) = there {
             output.set_permissions(there.permissions()).map_err(plain)?;

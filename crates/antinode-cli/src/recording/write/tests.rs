@@ -210,6 +210,19 @@ fn a_file_that_cannot_have_its_name_is_kept() {
     assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 2);
 }
 
+#[cfg(windows)]
+#[test]
+fn a_path_may_be_longer_than_windows_takes_without_its_mark() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("a.csv");
+    let (whole, _) = WholeFile::create(&path).unwrap();
+    // Wine takes any length, so that the mark itself is looked for.
+    let name = whole.temporary().to_string_lossy();
+    assert!(name.starts_with(r"\\?\"), "{name}");
+    whole.finish().unwrap();
+    assert!(path.is_file());
+}
+
 #[cfg(unix)]
 #[test]
 fn a_link_keeps_leading_to_its_file() {

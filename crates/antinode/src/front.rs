@@ -300,9 +300,15 @@ impl<S: Sample, const N: usize> Front<S, N> {
     /// Begins blocks for a wave of `period` samples.
     #[inline(never)]
     fn begin(&mut self, period: f32) {
+        let step = PhaseStep::from_period(period);
         let length = self.cut.length(period, N as u16);
-        self.demodulator
-            .begin(PhaseStep::from_period(period), length, self.index);
+        let before = self.demodulator.layout();
+        // At a known frequency every search begins with the same blocks, whose tables are kept.
+        if step == before.step && length == before.length {
+            self.demodulator.restart(self.index);
+        } else {
+            self.demodulator.begin(step, length, self.index);
+        }
         self.stage = Stage::Gathering;
     }
 

@@ -9,7 +9,7 @@ use antinode::block::Demodulator;
 use antinode::phase::PhaseStep;
 use antinode::{Front, Identifier, Packed, Sample, SamplePair, Settings, Tracker};
 
-use crate::codes::{Codes, Flaw, HALF_BUFFER, PERIOD};
+use crate::codes::{Codes, Flaw, HALF_BUFFER, PERIOD, PERIODS};
 use crate::gauge::{Gauge, apart};
 use crate::marks::leave;
 
@@ -108,7 +108,7 @@ where
     Packed: SamplePair<S>,
 {
     let mut codes = Codes::new();
-    codes.make(75, Flaw::Noise);
+    codes.make(PERIODS, Flaw::Noise);
     let settings = Settings {
         frequency: Some(5_332.0),
         ..Settings::new(100_000.0)

@@ -5,7 +5,7 @@ use antinode::Packed;
 /// Length of the ring, in pairs: 75 periods in 1406 pairs are 18.747 samples a period, close to 5332 Hz at 100 kS/s.
 pub const RING: usize = 1406;
 /// Periods in the ring.
-const PERIODS: u64 = 75;
+pub const PERIODS: u64 = 75;
 
 /// Pairs of a half-buffer.
 pub const HALF_BUFFER: usize = 128;

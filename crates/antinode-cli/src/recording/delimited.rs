@@ -4,7 +4,7 @@ mod fields;
 mod rows;
 
 use super::error::Fault;
-use super::gaps::{Gap, Gaps};
+use super::gaps::{Gap, Gaps, are_lost};
 use super::not_finite::Flaw;
 use super::time::{Meaning, TimeAxis, are_paired, roundest, standstill};
 use super::{OpenOptions, Opened, Source, Stream, first_of};
@@ -245,12 +245,7 @@ impl Delimited {
     pub fn lost(&self) -> Option<Fault> {
         if let Some((first, count)) = self.rows.left_out.reported() {
             let lost = self.gaps.reported().map_or(String::new(), |(line, lost)| {
-                let samples = if lost == 1 {
-                    "sample is"
-                } else {
-                    "samples are"
-                };
-                format!(", and before line {line} {lost} {samples} lost")
+                format!(", and before line {line} {}", are_lost(lost))
             });
             let told = format!(
                 "{}: the line is left out{}{lost}; \

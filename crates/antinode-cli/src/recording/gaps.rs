@@ -3,6 +3,8 @@
 use std::collections::VecDeque;
 use std::num::NonZeroU32;
 
+use crate::digits::counted;
+
 /// Number of gaps from which on equal distances between them are no chance.
 const MIN_REGULAR: u32 = 5;
 
@@ -86,11 +88,6 @@ impl Gaps {
     pub fn fault(&self) -> Option<(u64, String)> {
         let first = self.first?;
         let Found { gap, from, to, .. } = first;
-        let are_lost = if gap.lost == 1 {
-            "sample is"
-        } else {
-            "samples are"
-        };
         let of_all = match self.count {
             1 => String::new(),
             gaps => format!(", the first of {gaps} gaps with {} samples", self.lost),
@@ -102,10 +99,16 @@ impl Gaps {
             )
         });
         let told = format!(
-            "{} {are_lost} lost before this line (time goes from {from} s to {to} s){of_all}{every}; rows whose window spans a gap are \
+            "{} before this line (time goes from {from} s to {to} s){of_all}{every}; rows whose window spans a gap are \
              missing, all others are good; record it again without loss",
-            gap.lost
+            are_lost(gap.lost)
         );
         Some((first.line, told))
     }
+}
+
+/// The words for so many samples that are lost.
+pub(super) fn are_lost(count: u64) -> String {
+    let verb = if count == 1 { "is" } else { "are" };
+    format!("{} {verb} lost", counted(count, "sample"))
 }

@@ -85,3 +85,23 @@ fn a_mistake_does_nothing_in_both() {
     a_mistake_does_nothing::<i16>();
     a_mistake_does_nothing::<f32>();
 }
+
+fn a_state_of_the_other_arithmetic_is_refused<S: Arithmetic, Other: Arithmetic>() {
+    let mut other = Gyro::<Other>::new(&antinode_settings_default(RATE));
+    let state = other.pointer().cast::<S::State>();
+    for (state, status) in [
+        (null_mut(), Status::ErrorNull),
+        (odd(state).cast_mut(), Status::ErrorAlignment),
+        (state, Status::ErrorNotInitialised),
+    ] {
+        // SAFETY: a bad state is refused before anything but its mark is read.
+        let answer = unsafe { (S::ABI.push)(state, S::from(0), S::from(0)) };
+        assert_eq!(answer, status);
+    }
+}
+
+#[test]
+fn a_state_of_the_other_arithmetic_is_refused_in_both() {
+    a_state_of_the_other_arithmetic_is_refused::<i16, f32>();
+    a_state_of_the_other_arithmetic_is_refused::<f32, i16>();
+}

@@ -142,3 +142,20 @@ fn any_call_of_the_interrupt_obeys_a_search_in_both() {
     any_call_of_the_interrupt_obeys_a_search::<i16>();
     any_call_of_the_interrupt_obeys_a_search::<f32>();
 }
+
+#[test]
+fn health_tells_whether_there_is_a_wave_with_and_without_a_search() {
+    let (codes, silence) = (codes(5_000, 5_332.0), [[0; 2]; 5_000]);
+    for (frequency_hz, is_there) in [(0.0, 1), (5_300.0, 1), (6_500.0, 0)] {
+        let settings = Settings {
+            frequency_hz,
+            ..antinode_settings_default(RATE)
+        };
+        let mut gyro = Gyro::<i16>::new(&settings);
+        let told = [&[], &codes[..], &silence].map(|codes| {
+            gyro.run(Way::Interleaved, 128, codes);
+            gyro.health().has_wave
+        });
+        assert_eq!(told, [0, is_there, 0], "{frequency_hz} Hz");
+    }
+}

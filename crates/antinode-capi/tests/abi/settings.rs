@@ -61,14 +61,23 @@ fn every_setting_reaches_the_core_in_both() {
 fn refused_settings_leave_no_state<S: Arithmetic>() {
     let codes = codes(100, 5_332.0);
     let plain = antinode_settings_default(RATE);
-    let refused: [(Status, Change); 16] = [
+    let refused: [(Status, Change); 24] = [
         (Status::ErrorSampleRate, |s| s.sample_rate_hz = 0.5),
+        (Status::ErrorSampleRate, |s| s.sample_rate_hz = f64::NAN),
+        (Status::ErrorSampleRate, |s| s.sample_rate_hz = 1e300),
         (Status::ErrorPeriods, |s| s.periods = 51),
+        // In 16 bits these would be 10.
+        (Status::ErrorPeriods, |s| s.periods = 65_536 + 10),
         (Status::ErrorHop, |s| s.hop_blocks = 65_536),
         (Status::ErrorStartAngle, |s| s.start_angle_rad = 10_001.0),
+        (Status::ErrorStartAngle, |s| s.start_angle_rad = f32::NAN),
         (Status::ErrorRails, |s| s.rail_low = 1.0),
+        (Status::ErrorRails, |s| s.rail_high = f32::NAN),
         (Status::ErrorResolution, |s| s.resolution = -1.0),
         (Status::ErrorFrequency, |s| s.frequency_hz = 498.0),
+        (Status::ErrorFrequency, |s| s.frequency_hz = 40_001.0),
+        (Status::ErrorFrequency, |s| s.frequency_hz = -1.0),
+        (Status::ErrorFrequency, |s| s.frequency_hz = f32::NAN),
         (Status::ErrorDetection, |s| s.detection = 2),
         (Status::ErrorWatch, |s| s.watch = 2),
         (Status::ErrorHum, |s| s.hum = 2),

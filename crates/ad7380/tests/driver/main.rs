@@ -1,8 +1,9 @@
-//! The driver against the frames of the data sheet, byte by byte.
+//! The driver against the frames of the data sheet, byte by byte, and the limits in time.
 
 mod bus;
 mod results;
 mod start;
+mod timing;
 
 use ad7380::{Ad7380, Config};
 use embedded_hal_mock::eh1::delay::NoopDelay;

@@ -1,10 +1,5 @@
 //! What the tests share: any message, to the bit.
 
-#![allow(
-    dead_code,
-    reason = "every test file is a crate, and none uses all of this"
-)]
-
 use antinode::{Calibration, Detection, Estimate, Flags, Settings, SettingsError};
 use antinode_telemetry::*;
 use proptest::prelude::*;

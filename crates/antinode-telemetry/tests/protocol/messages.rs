@@ -1,10 +1,8 @@
 //! Every message arrives as it was sent, to the bit, and none is longer than a frame may be.
 
-mod common;
-
+use crate::any::{bytes, command_frame, decode, estimate, report_frame};
 use antinode::{Calibration, Estimate, Flags, Settings, SettingsError};
 use antinode_telemetry::*;
-use common::{bytes, command_frame, decode, report_frame};
 use proptest::prelude::*;
 
 /// What arrives of one message: NaN differs from itself, so frames are compared.
@@ -29,7 +27,7 @@ proptest! {
     }
 
     #[test]
-    fn an_estimate_keeps_every_bit(estimate in common::estimate()) {
+    fn an_estimate_keeps_every_bit(estimate in estimate()) {
         let sent = bytes(&ReportFrame { number: 0, report: estimate.into() });
         let Some(Ok(ReportFrame { report: Report::Estimate(got), .. })) = decode(&sent).pop() else { panic!() };
         // Debug shows every field in its shortest form that reads back the same; NaN's bits are compared above.

@@ -1,9 +1,7 @@
 //! Whatever the line does to the bytes, the decoder neither panics nor gives what was not sent, and loses only what was touched.
 
-mod common;
-
+use crate::any::{bytes, command_frame, decode, report_frame};
 use antinode_telemetry::*;
-use common::{bytes, command_frame, decode, report_frame};
 use proptest::collection::vec;
 use proptest::prelude::*;
 

@@ -1,10 +1,8 @@
 //! What is on the wire changes only with its version: ends of two releases must not take each other's bytes for something else.
 
-mod common;
-
+use crate::any::{CAUSES, bytes};
 use antinode::{Calibration, Detection, Estimate, Flags, Settings, SettingsError};
 use antinode_telemetry::*;
-use common::{CAUSES, bytes};
 
 /// Numbers that differ, for every field its own: fields that change places change bytes.
 struct Numbers(u8);

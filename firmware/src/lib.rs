@@ -45,7 +45,7 @@
 //! | `marks`, `gauge`, `text` | begin and end of a measurement; counters and stack paint; the printed line |
 //!
 //! The modules above `hardware` do not depend on hardware, and are tested on the host too: `cargo test --release -p firmware --lib` and
-//! `cargo test --release -p host-tests --test firmware`. Pins and ranges are in `firmware/docs/wiring.md`.
+//! `cargo test --release --test firmware`. Pins and ranges are in `firmware/docs/wiring.md`.
 #![no_std]
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Tests of the images: `replay` in QEMU against the same pipeline on the host, and properties of the others.
 //!
 //! All except those of `line`, `priorities`, `recovery` and `steered` need the ARM target and QEMU, and so are run explicitly:
-//! `cargo test --release -p host-tests --test firmware -- --ignored`.
+//! `cargo test --release --test firmware -- --ignored`.
 #![cfg(unix)] // the emulator's serial line is a Unix socket
 
 mod board;

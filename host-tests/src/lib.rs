@@ -50,6 +50,16 @@ pub fn identify_changed(
         .collect()
 }
 
+/// Identifies parts of streams, one behind the other, from cold; gives all estimates.
+pub fn identify_parts(parts: &[&[[f32; 2]]], settings: Settings) -> Vec<Estimate> {
+    let mut core = Core::new(settings).expect("the test's settings are valid");
+    let mut found = Vec::new();
+    for part in parts {
+        core.extend(part, |estimate| found.push(estimate));
+    }
+    found
+}
+
 /// Settings with windows of `periods`.
 pub fn windows(periods: u16) -> Settings {
     Settings {

@@ -4,7 +4,9 @@ use std::f64::consts::TAU;
 
 use antinode::{Estimate, Flags, Settings};
 use antinode_sim::{Flaws, Wave, random_wave};
-use host_tests::{Core, RATE, identify_changed, identify_signal, no_wave, stream, windows};
+use host_tests::{
+    RATE, identify_changed, identify_parts, identify_signal, no_wave, stream, windows,
+};
 
 fn noisy(wave: &Wave, noise: f64) -> Flaws {
     Flaws {
@@ -25,10 +27,7 @@ fn a_small_leap_of_the_frequency_needs_no_search() {
                 stream(wave, noisy(&wave, 0.005), 10_000, seed),
                 stream(to, noisy(&wave, 0.005), 20_000, seed),
             );
-            let mut core = Core::new(windows(50)).unwrap();
-            let mut found = Vec::new();
-            core.extend(&one, |e| found.push(e));
-            core.extend(&two[10_000..], |e| found.push(e));
+            let found = identify_parts(&[&one, &two[10_000..]], windows(50));
             let after: Vec<_> = found.iter().filter(|e| e.start >= 10_000).collect();
             assert!(after.len() >= 9, "{}", after.len());
             for estimate in &after[1..] {
@@ -51,14 +50,9 @@ fn a_wave_that_ends_with_a_window_is_lost_and_nothing_else() {
             stream(wave, flaws.clone(), 10_000, seed),
             stream(silent, flaws, 11_000, seed),
         );
-        let mut core = Core::new(windows(10)).unwrap();
-        let mut clean = Vec::new();
-        core.extend(&one, |e| clean.push(e));
+        let clean = identify_parts(&[&one], windows(10));
         let at = clean[40].start as usize;
-        let mut core = Core::new(windows(10)).unwrap();
-        let mut found = Vec::new();
-        core.extend(&one[..at], |e| found.push(e));
-        core.extend(&two[at..], |e| found.push(e));
+        let found = identify_parts(&[&one[..at], &two[at..]], windows(10));
         // The difference between its numbers and those of the wave is no step.
         let told = found[40].flags;
         assert!(
@@ -73,16 +67,12 @@ fn missing_samples_next_to_a_nan_are_reported_once() {
     for seed in 0..20 {
         let wave = random_wave(seed, 5332.0, 0.5);
         let mut pairs = stream(wave, noisy(&wave, 0.002), 8_000, seed);
-        let mut core = Core::new(windows(10)).unwrap();
-        let mut clean = Vec::new();
-        core.extend(&pairs, |e| clean.push(e));
+        let clean = identify_parts(&[&pairs], windows(10));
         let at = clean[20].start as usize + 40 + 5 * seed as usize;
         pairs[at] = [f32::NAN; 2];
         // A sixth of a period is missing.
         pairs.drain(at + 1..at + 4);
-        let mut core = Core::new(windows(10)).unwrap();
-        let mut found = Vec::new();
-        core.extend(&pairs, |e| found.push(e));
+        let found = identify_parts(&[&pairs], windows(10));
         assert!(found.len() >= 40, "{}", found.len());
         for (index, estimate) in found.iter().enumerate() {
             let expected = if index == 20 {
@@ -218,9 +208,7 @@ fn a_wave_is_found_again_after_a_shock_that_rings_at_another_frequency() {
                 pair[1] += (shock * sine) as f32;
             }
             let settings = Settings { hum, ..windows(10) };
-            let mut core = Core::new(settings).unwrap();
-            let mut found: Vec<Estimate> = Vec::new();
-            core.extend(&pairs, |e| found.push(e));
+            let found = identify_parts(&[&pairs], settings);
             let last = &found[found.len() - 50..];
             for estimate in last {
                 assert!(

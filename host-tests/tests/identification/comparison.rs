@@ -8,38 +8,28 @@ use antinode::methods::comparison::{
 };
 use antinode::methods::{Delayed, Moments, Products, algorithm2};
 use antinode_sim::{Flaws, Gyro, Wave, random_wave};
-use host_tests::{Core, RATE, windows};
+use host_tests::{Core, RATE, stream, windows};
 
-/// The comparison of every window of a gyro whose samples are changed by `spoil`.
-fn comparisons(
-    wave: Wave,
-    flaws: &Flaws,
-    periods: u16,
-    samples: usize,
-    seed: u64,
-    spoil: impl Fn(usize, [f64; 2]) -> [f64; 2],
-) -> Vec<Comparison> {
-    comparisons_with(windows(periods), wave, flaws, samples, seed, spoil)
-}
-
-/// The same with other settings, without windows that begin in the first quarter period.
-fn comparisons_with(
-    settings: Settings,
+/// The pairs of a gyro, changed by `spoil`.
+fn pairs(
     wave: Wave,
     flaws: &Flaws,
     samples: usize,
     seed: u64,
     spoil: impl Fn(usize, [f64; 2]) -> [f64; 2],
-) -> Vec<Comparison> {
+) -> Vec<[f32; 2]> {
     let gyro = Gyro::new(wave, flaws.clone(), RATE, seed).expect("a valid gyro");
-    let pairs: Vec<[f32; 2]> = gyro
-        .take(samples)
+    gyro.take(samples)
         .enumerate()
         .map(|(k, pair)| spoil(k, pair).map(|x| x as f32))
-        .collect();
+        .collect()
+}
+
+/// The comparison of every window, without those that begin in the first quarter period.
+fn comparisons(pairs: &[[f32; 2]], settings: Settings) -> Vec<Comparison> {
     let mut core = Box::new(Core::new(settings).expect("valid settings"));
     let mut found = Vec::new();
-    core.extend(&pairs, |estimate| {
+    core.extend(pairs, |estimate| {
         let omega = TAU * estimate.frequency / RATE;
         let (start, end) = (estimate.start as usize, estimate.end() as usize);
         let offsets = estimate.offsets;
@@ -71,32 +61,38 @@ fn disagree(found: &[Comparison]) -> usize {
 }
 
 #[test]
-fn methods_agree_in_white_noise() {
+fn in_white_noise_methods_agree_and_the_conditions_of_the_delay_are_as_sharp_as_it_allows() {
     let mut total = 0;
     for noise in [0.0, 1e-4, 0.001, 0.02, 0.1, 0.2] {
+        let streams = (0..30).map(|seed| {
+            let wave = Wave {
+                angle_rate: 0.5,
+                decay_rate: 0.3,
+                ..random_wave(seed, 5332.0, 0.5)
+            };
+            let flaws = Flaws {
+                noise: noise * wave.main_amplitude,
+                offset_c: 0.2,
+                ..Flaws::default()
+            };
+            stream(wave, flaws, 9000, seed)
+        });
+        let streams: Vec<_> = streams.collect();
         for periods in [2, 4, 10, 50] {
-            let (mut count, mut loud) = (0, 0);
-            for seed in 0..30 {
-                let wave = Wave {
-                    angle_rate: 0.5,
-                    decay_rate: 0.3,
-                    ..random_wave(seed, 5332.0, 0.5)
-                };
-                let flaws = Flaws {
-                    noise: noise * wave.main_amplitude,
-                    offset_c: 0.2,
-                    ..Flaws::default()
-                };
-                let found = comparisons(wave, &flaws, periods, 9000, seed, |_, pair| pair);
-                count += found.len();
-                loud += disagree(&found);
-            }
+            let found: Vec<_> = streams
+                .iter()
+                .flat_map(|pairs| comparisons(pairs, windows(periods)))
+                .collect();
+            let (count, loud) = (found.len(), disagree(&found));
             total += count;
-            println!("noise {noise}, {periods} periods: {loud} of {count} windows disagree");
-            assert!(
-                loud * 1000 <= count,
-                "noise {noise}, {periods} periods: {loud}"
-            );
+            let name = format!("noise {noise}, {periods} periods");
+            println!("{name}: {loud} of {count} windows disagree");
+            assert!(loud * 1000 <= count, "{name}: {loud}");
+            let rms = OfDelay::of(&found).rms(&name);
+            // Where noise rather than f32 is the limit, the rms is 1: a condition that always holds would test nothing.
+            if noise >= 0.02 {
+                assert!(rms.iter().all(|x| (0.4..1.1).contains(x)), "{rms:.2?}");
+            }
         }
     }
     assert!(total > 10_000);
@@ -107,31 +103,29 @@ fn methods_agree_with_many_samples_and_near_a_circle() {
     let mut total = 0;
     for (frequency, noises) in [(600.0, [0.1, 0.2]), (5332.0, [1e-3, 0.02])] {
         for noise in noises {
-            for periods in [2, 4, 10] {
-                let (mut count, mut loud) = (0, 0);
-                for seed in 0..60 {
-                    let wave = random_wave(seed, frequency, 0.5);
-                    // 0.05 to 0.9 of a_A, of either sign.
-                    let share = 0.05 + 0.85 * (seed / 2) as f64 / 29.0;
-                    let sign = if seed % 2 == 0 { 1.0 } else { -1.0 };
-                    let wave = Wave {
-                        quadrature_amplitude: sign * share * wave.main_amplitude,
-                        ..wave
-                    };
-                    let flaws = Flaws {
-                        noise: noise * wave.main_amplitude,
-                        ..Flaws::default()
-                    };
-                    let samples = (500.0 * RATE / frequency) as usize;
-                    let found = comparisons(wave, &flaws, periods, samples, seed, |_, pair| pair);
-                    count += found.len();
-                    loud += disagree(&found);
+            for seed in 0..60 {
+                let wave = random_wave(seed, frequency, 0.5);
+                // 0.05 to 0.9 of a_A, of either sign.
+                let share = 0.05 + 0.85 * (seed / 2) as f64 / 29.0;
+                let sign = if seed % 2 == 0 { 1.0 } else { -1.0 };
+                let wave = Wave {
+                    quadrature_amplitude: sign * share * wave.main_amplitude,
+                    ..wave
+                };
+                let flaws = Flaws {
+                    noise: noise * wave.main_amplitude,
+                    ..Flaws::default()
+                };
+                let pairs = stream(wave, flaws, (500.0 * RATE / frequency) as usize, seed);
+                for periods in [2, 4, 10] {
+                    let found = comparisons(&pairs, windows(periods));
+                    total += found.len();
+                    let loud = disagree(&found);
+                    assert_eq!(
+                        loud, 0,
+                        "{frequency} Hz, noise {noise}, {periods} periods, seed {seed}"
+                    );
                 }
-                println!(
-                    "{frequency} Hz, noise {noise}, {periods} periods: {loud} of {count} windows disagree"
-                );
-                assert_eq!(loud, 0, "{frequency} Hz, noise {noise}, {periods} periods");
-                total += count;
             }
         }
     }
@@ -154,7 +148,7 @@ fn methods_agree_on_the_axes_and_disagree_about_a_wrong_angle_there() {
                     ..Flaws::default()
                 };
                 let found = |seed: u64, spoil: &dyn Fn(usize, [f64; 2]) -> [f64; 2]| {
-                    comparisons(wave, &flaws, 10, 90_000, seed, spoil)
+                    comparisons(&pairs(wave, &flaws, 90_000, seed, spoil), windows(10))
                 };
                 let clean: Vec<Comparison> = (1..4)
                     .flat_map(|seed| found(seed, &|_, pair| pair))
@@ -196,7 +190,7 @@ fn methods_disagree_if_the_signal_is_not_one_wave() {
         ..Flaws::default()
     };
     let loud = |spoil: &dyn Fn(usize, [f64; 2]) -> [f64; 2]| {
-        let found = comparisons(Wave::default(), &flaws, 10, 9000, 1, spoil);
+        let found = comparisons(&pairs(Wave::default(), &flaws, 9000, 1, spoil), windows(10));
         disagree(&found) as f64 / found.len() as f64
     };
     // A second tone of 10 % outside the demodulator's band, a third harmonic of 10 %, a limiter at 60 %.
@@ -224,12 +218,16 @@ struct OfDelay {
 }
 
 impl OfDelay {
-    fn add(&mut self, found: &Comparison) {
-        let Conditions { delay, monitor, .. } = found.methods[1].conditions;
-        self.count += 1;
-        self.failed += u32::from(!delay || !monitor);
-        self.squares[0] += found.imbalance_excess.powi(2);
-        self.squares[1] += found.phase_excess.powi(2);
+    fn of(found: &[Comparison]) -> Self {
+        let mut of = Self::default();
+        for found in found {
+            let Conditions { delay, monitor, .. } = found.methods[1].conditions;
+            of.count += 1;
+            of.failed += u32::from(!delay || !monitor);
+            of.squares[0] += found.imbalance_excess.powi(2);
+            of.squares[1] += found.phase_excess.powi(2);
+        }
+        of
     }
 
     /// Asserts that no more than one in forty fails; gives the rms of (17) and (20) in their deviations.
@@ -243,38 +241,8 @@ impl OfDelay {
 }
 
 #[test]
-fn the_conditions_of_the_delay_hold_in_white_noise_and_are_as_sharp_as_it_allows() {
-    let turning = |seed| Wave {
-        angle_rate: 0.5,
-        decay_rate: 0.3,
-        ..random_wave(seed, 5332.0, 0.5)
-    };
-    for noise in [0.0, 1e-4, 0.001, 0.02, 0.2] {
-        for periods in [2, 4, 10, 50] {
-            let mut of_delay = OfDelay::default();
-            for seed in 0..30 {
-                let wave = turning(seed);
-                let flaws = Flaws {
-                    noise: noise * wave.main_amplitude,
-                    offset_c: 0.2,
-                    ..Flaws::default()
-                };
-                for found in comparisons(wave, &flaws, periods, 9000, seed, |_, pair| pair) {
-                    of_delay.add(&found);
-                }
-            }
-            let rms = of_delay.rms(&format!("noise {noise}, {periods} periods"));
-            // Where noise rather than f32 is the limit, the rms is 1: a condition that always holds would test nothing.
-            if noise >= 0.02 {
-                assert!(rms.iter().all(|x| (0.4..1.1).contains(x)), "{rms:.2?}");
-            }
-        }
-    }
-}
-
-#[test]
 fn the_conditions_of_the_delay_hold_if_blocks_do_not_fit_the_period() {
-    let mut of_delay = OfDelay::default();
+    let mut found = Vec::new();
     for seed in 0..20 {
         let wave = random_wave(seed, 5332.0, 0.5);
         let flaws = Flaws {
@@ -285,12 +253,10 @@ fn the_conditions_of_the_delay_hold_if_blocks_do_not_fit_the_period() {
             frequency: Some(5550.0),
             ..windows(200)
         };
-        for found in comparisons_with(known, wave, &flaws, 40_000, seed, |_, pair| pair) {
-            of_delay.add(&found);
-        }
+        found.extend(comparisons(&stream(wave, flaws, 40_000, seed), known));
     }
-    let rms = of_delay.rms("4 % off");
-    assert!(of_delay.count > 150);
+    assert!(found.len() > 150);
+    let rms = OfDelay::of(&found).rms("4 % off");
     assert!(rms.iter().all(|x| (0.4..1.2).contains(x)), "{rms:.2?}");
 }
 
@@ -312,13 +278,14 @@ fn a_tone_that_fails_the_conditions_of_the_delay_ranks_algorithm_2_behind_3_and_
         (14_668.0, 1.0, FRAC_PI_2, [false, true]),
         (9000.0, 1.0, 0.0, [true, true]),
     ] {
-        let found = comparisons(wave, &flaws, 10, 9000, 1, |k, [c, d]| {
+        let pairs = pairs(wave, &flaws, 9000, 1, |k, [c, d]| {
             let phase = TAU * tone / RATE * k as f64;
             [
                 c + 0.3 * phase.sin(),
                 d + 0.3 * share * (phase + ahead).sin(),
             ]
         });
+        let found = comparisons(&pairs, windows(10));
         let mut so = 0;
         for Comparison { methods, .. } in &found {
             let [_, second, third, fourth] = methods;
@@ -343,7 +310,10 @@ fn ranks_follow_conditions_and_j() {
         ..Flaws::default()
     };
     // (8) holds within the noise.
-    let found = comparisons(Wave::default(), &noisy, 10, 9000, 3, |_, pair| pair);
+    let found = comparisons(
+        &stream(Wave::default(), noisy.clone(), 9000, 3),
+        windows(10),
+    );
     assert!(found.len() > 40, "{}", found.len());
     for comparison in found {
         let mut ranks = comparison.methods.map(|method| method.rank);
@@ -369,7 +339,7 @@ fn ranks_follow_conditions_and_j() {
         quadrature_amplitude: 0.8,
         ..Wave::default()
     };
-    let found = comparisons(wave, &noisy, 10, 9000, 3, |_, pair| pair);
+    let found = comparisons(&stream(wave, noisy, 9000, 3), windows(10));
     assert!(found.len() > 40, "{}", found.len());
     for comparison in found {
         assert!(!comparison.methods[0].conditions.no_quadrature);

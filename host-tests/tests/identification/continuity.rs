@@ -148,8 +148,11 @@ fn the_angle_does_not_slip_at_the_end_of_a_ring_down() {
             start_angle: 0.3,
             ..windows(10)
         };
-        // The wave is found while it is large.
+        // The wave is found while it is large; after 13 s nothing of that is left.
         let found = identify_changed(wave, &flaws, settings, 3_000_000, seed, |k, [c, d]| {
+            if k > 1_300_000 {
+                return [c, d];
+            }
             let more = 5.0 * (-(k as f64) / 30_000.0).exp();
             let clean = wave.pick_offs(k as f64 / RATE);
             [c + more * clean[0], d + more * clean[1]]

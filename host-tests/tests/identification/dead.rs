@@ -1,7 +1,7 @@
 //! A pick-off that dies is flagged, however small its part of the wave was; a pattern that turns to the other one's axis is not.
 
 use antinode::{Flags, Settings};
-use antinode_sim::{Flaws, Wave, random_wave};
+use antinode_sim::{Flaws, Gyro, Wave, random_wave};
 use host_tests::{Core, RATE, stream, windows};
 
 /// Share of a_A that a pick-off's wave must exceed for its loss to be flagged.
@@ -38,9 +38,9 @@ fn told(deviations: f64, noise: f64, depth: usize) -> f64 {
             main_amplitude: 1e-9,
             ..wave
         };
-        let noise = stream(silence, flaws.clone(), 45 * 190, seed + 1000);
-        for (pair, noise) in pairs.iter_mut().zip(noise).skip(at) {
-            pair[0] = noise[0];
+        let noise = Gyro::new(silence, flaws.clone(), RATE, seed + 1000).unwrap();
+        for (pair, [c, _]) in pairs[at..].iter_mut().zip(noise.skip(at)) {
+            pair[0] = c as f32;
         }
         let mut core = Core::new(settings()).unwrap();
         core.extend(&pairs, |estimate| {

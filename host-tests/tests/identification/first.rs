@@ -3,7 +3,7 @@
 use antinode::{Flags, Settings};
 use antinode_sim::{Flaws, Wave, random_wave};
 use host_tests::score::StatedRatio;
-use host_tests::{Core, RATE, identify, identify_changed, stream, windows};
+use host_tests::{RATE, identify, identify_changed, identify_parts, stream, windows};
 
 #[test]
 fn a_spike_or_a_small_step_in_the_first_window_is_flagged() {
@@ -63,10 +63,7 @@ fn a_step_within_a_long_first_window_is_flagged() {
                     let at = 50 + window * part / 10;
                     let one = stream(wave, flaws.clone(), at, seed);
                     let two = stream(to, flaws.clone(), 4 * window, seed);
-                    let mut core = Core::new(windows(periods)).unwrap();
-                    let mut found = Vec::new();
-                    core.extend(&one, |e| found.push(e));
-                    core.extend(&two[at..], |e| found.push(e));
+                    let found = identify_parts(&[&one, &two[at..]], windows(periods));
                     let first = &found[0];
                     assert!(first.start < 70);
                     assert!(

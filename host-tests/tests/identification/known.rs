@@ -5,7 +5,7 @@ use antinode_sim::{Flaws, Wave, random_wave};
 use host_tests::codes::{codes, converted, identify_up_to};
 use host_tests::random::Random;
 use host_tests::score::{NAMES, Score, StatedRatio};
-use host_tests::{Core, RATE, gyro, identify, identify_changed, windows};
+use host_tests::{Core, RATE, gyro, identify, identify_changed, identify_parts, stream, windows};
 
 /// Settings for windows of `periods` of a wave, with the known frequency `off` times itself from the truth.
 fn told(periods: u16, frequency: f64, off: f64) -> Settings {
@@ -63,23 +63,28 @@ fn windows_of_slow_waves_reach_the_bound_from_the_first_sample_on() {
 /// Waves of these periods in samples, with the known frequency exact and up to 5 % off.
 fn check_the_bound(waves: &[f64]) {
     for &period in waves {
-        for periods in [10, 50] {
-            for off in [-0.05, 0.0, 0.05] {
-                let mut score = Score::default();
-                let label = format!("{period} samples a period, {periods} periods, told {off} off");
-                if period * (1.0 - off) < 2.5 {
-                    continue;
-                }
-                for seed in 0..400 {
-                    let (wave, flaws) = noisy(period, seed);
-                    let settings = told(periods, wave.frequency, off);
-                    let samples = (period * f64::from(periods) * 5.6) as usize;
-                    let found = identify(wave, &flaws, settings, samples, seed);
-                    add(&mut score, &found, &wave, flaws.noise, &label);
-                }
-                // Blocks of the wrong length lose up to 2 %, and the test scatters.
-                check(&score, 1900, 1.1, &label);
+        let cases: Vec<(u16, f64)> = [10, 50]
+            .into_iter()
+            .flat_map(|periods| [-0.05, 0.0, 0.05].map(|off| (periods, off)))
+            .filter(|(_, off)| period * (1.0 - off) >= 2.5)
+            .collect();
+        let label = |(periods, off)| {
+            format!("{period} samples a period, {periods} periods, told {off} off")
+        };
+        let samples = |periods| (period * f64::from(periods) * 5.6) as usize;
+        let mut scores = vec![Score::default(); cases.len()];
+        for seed in 0..400 {
+            let (wave, flaws) = noisy(period, seed);
+            let pairs = stream(wave, flaws.clone(), samples(50), seed);
+            for (score, &(periods, off)) in scores.iter_mut().zip(&cases) {
+                let pairs = &pairs[..samples(periods)];
+                let found = identify_parts(&[pairs], told(periods, wave.frequency, off));
+                add(score, &found, &wave, flaws.noise, &label((periods, off)));
             }
+        }
+        for (score, case) in scores.iter().zip(cases) {
+            // Blocks of the wrong length lose up to 2 %, and the test scatters.
+            check(score, 1900, 1.1, &label(case));
         }
     }
 }
@@ -100,9 +105,7 @@ fn noise_nearly_as_large_as_the_wave_hides_no_wave_in_long_windows() {
                 let mut core =
                     Box::new(antinode::Identifier::<f32, 256, 1024>::new(settings).unwrap());
                 let mut found = Vec::new();
-                core.extend(&host_tests::stream(wave, flaws, samples, seed), |e| {
-                    found.push(e)
-                });
+                core.extend(&stream(wave, flaws, samples, seed), |e| found.push(e));
                 let label = format!("{period} samples a period, {periods} periods, seed {seed}");
                 assert_eq!(
                     found.first().map(|estimate| estimate.start),
@@ -215,7 +218,7 @@ fn a_wave_that_comes_back_is_tracked_without_a_search() {
 #[test]
 fn presence_of_a_wave_is_known_though_nothing_is_searched() {
     let (wave, flaws) = gyro(3);
-    let pairs = host_tests::stream(wave, flaws.clone(), 10_000, 3);
+    let pairs = stream(wave, flaws.clone(), 10_000, 3);
     let mut random = Random::new(1);
     let silence: Vec<_> = pairs
         .iter()
@@ -238,7 +241,7 @@ fn presence_of_a_wave_is_that_of_the_last_row() {
     let (mut there, mut lost) = (0, 0);
     for seed in 0..20 {
         let (wave, flaws) = gyro(seed);
-        let mut pairs = host_tests::stream(wave, flaws, 6000, seed);
+        let mut pairs = stream(wave, flaws, 6000, seed);
         let mut random = Random::new(1);
         // Silent for one window or a little more: no search begins.
         for pair in &mut pairs[2000 + 10 * seed as usize..2280] {
@@ -260,10 +263,11 @@ fn presence_of_a_wave_is_that_of_the_last_row() {
 
 #[test]
 fn a_wave_at_another_frequency_gives_no_row() {
-    for off in [-0.2, -0.15, -0.1, 0.1, 0.15, 0.2, 0.3, 0.5] {
-        for seed in 0..40 {
-            let (wave, flaws) = noisy(18.75, seed);
-            let found = identify(wave, &flaws, told(10, wave.frequency, off), 20_000, seed);
+    for seed in 0..40 {
+        let (wave, flaws) = noisy(18.75, seed);
+        let pairs = stream(wave, flaws, 20_000, seed);
+        for off in [-0.2, -0.15, -0.1, 0.1, 0.15, 0.2, 0.3, 0.5] {
+            let found = identify_parts(&[&pairs], told(10, wave.frequency, off));
             assert!(found.is_empty(), "told {off} off: {:?}", found[0]);
         }
     }
@@ -273,14 +277,14 @@ fn a_wave_at_another_frequency_gives_no_row() {
 fn no_row_of_a_wave_at_another_frequency_is_clean() {
     for (periods, period, samples) in [(10, 18.75, 6000), (50, 18.75, 20_000), (10, 50.0, 16_000)] {
         let mut flagged = 0;
-        // From a third of the known frequency to three times it.
-        for hundredths in (-67..=-20).chain(20..=200) {
-            let off = 0.01 * f64::from(hundredths);
-            for (noise, seed) in [1e-6, 0.001, 0.02].into_iter().zip(0..) {
-                let (wave, mut flaws) = noisy(period, seed);
-                flaws.noise = noise * wave.main_amplitude;
-                let settings = told(periods, wave.frequency, off);
-                let found = identify(wave, &flaws, settings, samples, seed);
+        for (noise, seed) in [1e-6, 0.001, 0.02].into_iter().zip(0..) {
+            let (wave, mut flaws) = noisy(period, seed);
+            flaws.noise = noise * wave.main_amplitude;
+            let pairs = stream(wave, flaws, samples, seed);
+            // From a third of the known frequency to three times it.
+            for hundredths in (-67..=-20).chain(20..=200) {
+                let off = 0.01 * f64::from(hundredths);
+                let found = identify_parts(&[&pairs], told(periods, wave.frequency, off));
                 for estimate in &found {
                     assert!(
                         !estimate.flags.is_empty(),
@@ -330,7 +334,7 @@ fn a_frequency_with_a_period_longer_than_a_block_is_refused() {
     let mut core = Core::new(windows(10)).unwrap();
     let too_low = told(20, lowest.into(), -0.1);
     assert!(core.configure(too_low).is_err() && core.change(too_low).is_err());
-    let pairs = host_tests::stream(wave, flaws, 10_000, 1);
+    let pairs = stream(wave, flaws, 10_000, 1);
     let mut found = Vec::new();
     core.extend(&pairs, |estimate| found.push(estimate.samples));
     assert!(found.len() > 40 && found.iter().all(|&samples| samples < 200));

@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use antinode::{Calibration, Estimate, Flags, Front, Settings, Tracker};
 use antinode_sim::{Flaws, Wave, random_wave};
 use host_tests::score::errors;
-use host_tests::{Core, RATE, gyro, identify_changed, stream, windows};
+use host_tests::{Core, RATE, gyro, identify_changed, identify_parts, stream, windows};
 
 #[test]
 fn reacquired_in_a_misfit_is_flagged_again_with_the_first_row_without_misfit() {
@@ -180,9 +180,7 @@ fn pairs_lost_during_a_search_restart_it() {
         core.skip(lost as u64);
         core.extend(&pairs[28 + lost..], |e| found.push(e));
         // As if the stream had begun there.
-        let mut fresh = Core::new(windows(5)).unwrap();
-        let mut wanted = Vec::new();
-        fresh.extend(&pairs[28 + lost..], |e| wanted.push(e));
+        let wanted = identify_parts(&[&pairs[28 + lost..]], windows(5));
         let values = |e: &Estimate| (e.main_amplitude, e.angle, e.frequency, e.flags);
         assert_eq!(
             found.iter().map(values).collect::<Vec<_>>(),
@@ -207,10 +205,7 @@ fn a_wave_with_a_leap_of_its_frequency_is_found_again() {
             stream(wave, flaws.clone(), 20_000, 1),
             stream(other, flaws, 60_000, 1),
         );
-        let mut core = Core::new(windows(periods)).unwrap();
-        let mut found = Vec::new();
-        core.extend(&one, |e| found.push(e));
-        core.extend(&two[20_000..], |e| found.push(e));
+        let found = identify_parts(&[&one, &two[20_000..]], windows(periods));
         let is_right = |e: &Estimate| (e.frequency - frequency).abs() < 0.01 * frequency;
         let clean = found
             .iter()
@@ -246,10 +241,7 @@ fn a_wave_that_leaps_to_a_frequency_hardly_seen_by_blocks_is_found_again() {
                 stream(wave, flaws.clone(), at, seed),
                 stream(other, flaws, 4 * at, seed),
             );
-            let mut core = Core::new(windows(periods)).unwrap();
-            let mut found = Vec::new();
-            core.extend(&one, |e| found.push(e));
-            core.extend(&two[at..], |e| found.push(e));
+            let found = identify_parts(&[&one, &two[at..]], windows(periods));
             let mut after = found
                 .iter()
                 .filter(|e| e.start > at as u64 && e.flags.is_empty())

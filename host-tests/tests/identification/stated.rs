@@ -5,7 +5,9 @@ use std::f64::consts::FRAC_PI_2;
 use antinode::{Estimate, Flags, Settings};
 use antinode_sim::{Flaws, Wave, random_wave};
 use host_tests::score::StatedRatio;
-use host_tests::{Core, angle_error, calibrated, identify, identify_changed, stream, windows};
+use host_tests::{
+    angle_error, calibrated, identify, identify_changed, identify_parts, stream, windows,
+};
 
 /// The error of α, which depends on the choice of the angle, rad.
 fn error_of_phase(estimate: &Estimate, wave: &Wave) -> f64 {
@@ -131,10 +133,7 @@ fn deviations_hold_in_first_windows_with_more_noise() {
         };
         let quiet = stream(wave, flaws(0.002), 5000, seed);
         let loud = stream(wave, flaws(0.02), 6000, seed);
-        let mut core = Core::new(windows(10)).unwrap();
-        let mut found = Vec::new();
-        core.extend(&quiet, |e| found.push(e));
-        core.extend(&loud[5000..], |e| found.push(e));
+        let found = identify_parts(&[&quiet, &loud[5000..]], windows(10));
         for estimate in found.iter().filter(|e| e.start >= 5000).take(2) {
             honesty.add(estimate, &wave);
         }
@@ -279,9 +278,7 @@ fn deviations_follow_unflagged_changes_of_noise() {
                 let mut pairs = stream(wave, flaws(0.005), 2 * change, seed);
                 let changed = stream(wave, flaws(0.005 * factor), 2 * change, seed);
                 pairs[change..].copy_from_slice(&changed[change..]);
-                let mut core = Core::new(windows(periods)).unwrap();
-                let mut found = Vec::new();
-                core.extend(&pairs, |e| found.push(e));
+                let found = identify_parts(&[&pairs], windows(periods));
                 let since = found.iter().filter(|e| e.start >= change as u64);
                 for (index, estimate) in since.enumerate() {
                     for ((span, _), honesty) in spans.iter().zip(&mut honesty) {

@@ -2,8 +2,8 @@
 //! of the angle and 20 mrad of the phase.
 
 use antinode::{Estimate, Settings};
-use antinode_sim::{Flaws, Wave};
-use host_tests::{Core, RATE, stream};
+use antinode_sim::{Flaws, Gyro, Wave};
+use host_tests::{Core, RATE};
 
 /// Windows before the step, of blocks of 38 pairs.
 const BEFORE: usize = 30;
@@ -32,57 +32,92 @@ impl Of {
     }
 }
 
-/// Share of waves with a flag, after a step of `deviations` deviations `depth` pairs after the start of a window, or, with `gap` pairs
-/// between windows, in the gap before it.
-fn flagged(of: Of, deviations: f64, depth: usize, gap: usize) -> f64 {
-    let interval = WINDOW + gap;
-    let settings = Settings {
-        frequency: Some(5332.0),
-        // With a hop, a window has ten blocks.
-        hop: (gap > 0).then_some((interval / (WINDOW / 10)) as u16),
-        ..Settings::new(RATE)
-    };
-    let at = BEFORE * interval + depth - gap / 2;
-    let mut count = 0;
-    for seed in 0..TRIALS {
-        let wave = Wave {
-            main_amplitude: 1.0,
-            quadrature_amplitude: 0.1,
-            angle: 0.3,
-            phase: 0.1 * seed as f64,
-            ..Wave::default()
+/// A wave, its stream, and its windows, none of which is flagged.
+struct Still {
+    wave: Wave,
+    pairs: Vec<[f32; 2]>,
+    found: Vec<Estimate>,
+}
+
+/// Still waves, to let each of them step; with `gap` pairs between windows.
+struct Trials {
+    gap: usize,
+    settings: Settings,
+    still: Vec<Still>,
+}
+
+impl Trials {
+    fn new(gap: usize) -> Self {
+        let settings = Settings {
+            frequency: Some(5332.0),
+            // With a hop, a window has ten blocks.
+            hop: (gap > 0).then_some(((WINDOW + gap) / (WINDOW / 10)) as u16),
+            ..Settings::new(RATE)
         };
-        let flaws = Flaws {
-            noise: 0.02,
-            ..Flaws::default()
-        };
-        let identified = |to: Wave| {
-            let total = (BEFORE + 4) * interval;
-            let [one, two] = [wave, to].map(|wave| stream(wave, flaws.clone(), total, seed));
+        let still = (0..TRIALS).map(|seed| {
+            let wave = Wave {
+                main_amplitude: 1.0,
+                quadrature_amplitude: 0.1,
+                angle: 0.3,
+                phase: 0.1 * seed as f64,
+                ..Wave::default()
+            };
+            let pairs: Vec<_> = pairs(wave, seed, 0)
+                .take((BEFORE + 4) * (WINDOW + gap))
+                .collect();
+            let mut found = Vec::new();
             let mut core = Core::new(settings).unwrap();
-            let mut found: Vec<Estimate> = Vec::new();
-            core.extend(&one[..at], |estimate| found.push(estimate));
-            core.extend(&two[at..], |estimate| found.push(estimate));
-            found
-        };
-        let still = identified(wave);
-        assert!(still.iter().all(|estimate| estimate.flags.is_empty()));
-        assert_eq!(still[BEFORE].start as usize, BEFORE * interval);
-        let step = of.step(deviations, &still[BEFORE]);
-        let mut to = wave;
-        match of {
-            Of::Main => to.main_amplitude += step,
-            Of::Quadrature => to.quadrature_amplitude += step,
-            Of::Angle => to.angle += step,
-            Of::Phase => to.phase += step,
+            core.extend(&pairs, |estimate| found.push(estimate));
+            assert!(found.iter().all(|estimate| estimate.flags.is_empty()));
+            assert_eq!(found[BEFORE].start as usize, BEFORE * (WINDOW + gap));
+            Still { wave, pairs, found }
+        });
+        Self {
+            gap,
+            settings,
+            still: still.collect(),
         }
-        count += usize::from(identified(to).iter().any(|found| !found.flags.is_empty()));
     }
-    count as f64 / TRIALS as f64
+
+    /// Share of waves with a flag, after a step of `deviations` deviations `depth` pairs after the start of a window, or, with a gap, in the
+    /// gap before it.
+    fn flagged(&self, of: Of, deviations: f64, depth: usize) -> f64 {
+        let at = BEFORE * (WINDOW + self.gap) + depth - self.gap / 2;
+        let mut count = 0;
+        for (seed, still) in (0..).zip(&self.still) {
+            let step = of.step(deviations, &still.found[BEFORE]);
+            let mut to = still.wave;
+            match of {
+                Of::Main => to.main_amplitude += step,
+                Of::Quadrature => to.quadrature_amplitude += step,
+                Of::Angle => to.angle += step,
+                Of::Phase => to.phase += step,
+            }
+            let mut core = Core::new(self.settings).unwrap();
+            let mut is_flagged = false;
+            let mut see = |estimate: Estimate| is_flagged |= !estimate.flags.is_empty();
+            core.extend(&still.pairs[..at], &mut see);
+            let stepped: Vec<_> = pairs(to, seed, at).take(still.pairs.len() - at).collect();
+            core.extend(&stepped, &mut see);
+            count += usize::from(is_flagged);
+        }
+        count as f64 / TRIALS as f64
+    }
+}
+
+/// The pairs of a wave in noise, from one on.
+fn pairs(wave: Wave, seed: u64, from: usize) -> impl Iterator<Item = [f32; 2]> {
+    let flaws = Flaws {
+        noise: 0.02,
+        ..Flaws::default()
+    };
+    let gyro = Gyro::new(wave, flaws, RATE, seed).unwrap();
+    gyro.skip(from).map(|pair| pair.map(|x| x as f32))
 }
 
 #[test]
 fn steps_are_flagged_from_the_stated_sizes_on() {
+    let trials = Trials::new(0);
     // Between two windows, in the middle of one, and near its ends: sizes at which half of them are flagged, and all.
     for (of, depth, half, all) in [
         (Of::Main, 0, 20.0, 30.0),
@@ -97,7 +132,7 @@ fn steps_are_flagged_from_the_stated_sizes_on() {
         (Of::Quadrature, 9 * WINDOW / 10, 35.0, 55.0),
         (Of::Angle, 9 * WINDOW / 10, 35.0, 55.0),
     ] {
-        let [some, most] = [half, all].map(|size| flagged(of, size, depth, 0));
+        let [some, most] = [half, all].map(|size| trials.flagged(of, size, depth));
         println!("{of:?} at {depth}: {some:.2} of {half} deviations, {most:.2} of {all}");
         assert!(
             (0.25..0.85).contains(&some) && most > 0.98,
@@ -108,9 +143,10 @@ fn steps_are_flagged_from_the_stated_sizes_on() {
 
 #[test]
 fn steps_in_a_gap_are_flagged_in_proportion_to_its_length() {
-    for of in [Of::Main, Of::Quadrature, Of::Angle] {
-        for (gap, half, all) in [(WINDOW, 36.0, 54.0), (3 * WINDOW, 70.0, 105.0)] {
-            let [some, most] = [half, all].map(|size| flagged(of, size, 0, gap));
+    for (gap, half, all) in [(WINDOW, 36.0, 54.0), (3 * WINDOW, 70.0, 105.0)] {
+        let trials = Trials::new(gap);
+        for of in [Of::Main, Of::Quadrature, Of::Angle] {
+            let [some, most] = [half, all].map(|size| trials.flagged(of, size, 0));
             println!("{of:?} over {gap}: {some:.2} of {half} deviations, {most:.2} of {all}");
             assert!(
                 (0.25..0.85).contains(&some) && most > 0.98,

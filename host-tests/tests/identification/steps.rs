@@ -3,7 +3,7 @@
 use antinode::{Estimate, Flags, Settings};
 use antinode_sim::{Flaws, Wave, random_wave};
 use host_tests::score::{errors, stated};
-use host_tests::{Core, RATE, identify_changed, stream, windows};
+use host_tests::{Core, RATE, identify_changed, identify_parts, stream, windows};
 
 /// Windows of ten periods before the step.
 const BEFORE: usize = 80;
@@ -27,16 +27,10 @@ fn stepped_at(wave: Wave, to: Wave, more: Flaws, seed: u64, depth: usize) -> Vec
         stream(wave, flaws(&wave), count, seed),
         stream(to, more, count, seed),
     );
-    let mut plain = Core::new(windows(10)).unwrap();
-    let mut clean = Vec::new();
-    plain.extend(&one, |e| clean.push(e));
+    let clean = identify_parts(&[&one], windows(10));
     assert!(clean.iter().all(|e| e.flags.is_empty()));
     let at = clean[BEFORE].start as usize + depth;
-    let mut core = Core::new(windows(10)).unwrap();
-    let mut found = Vec::new();
-    core.extend(&one[..at], |e| found.push(e));
-    core.extend(&two[at..], |e| found.push(e));
-    found
+    identify_parts(&[&one[..at], &two[at..]], windows(10))
 }
 
 fn check(found: &[Estimate], flag: Flags, name: &str) {
@@ -116,9 +110,7 @@ fn a_drifting_offset_is_flagged_once_at_most_and_a_step_during_the_drift_is() {
     };
     for seed in 0..10 {
         let one = stream(wave, wandering.clone(), 100_000, seed);
-        let mut core = Core::new(windows(50)).unwrap();
-        let mut found: Vec<Estimate> = Vec::new();
-        core.extend(&one, |e| found.push(e));
+        let found = identify_parts(&[&one], windows(50));
         let rows = found.len();
         let steps = found.iter().filter(|e| !e.flags.is_empty()).count();
         let moved = (found[rows - 1].offsets[0] - found[0].offsets[0]).abs() / rows as f32;
@@ -233,10 +225,7 @@ fn a_small_turn_within_a_long_window_is_flagged() {
                 stream(to, flaws, 20_000, seed),
             );
             let at = 53 + 950 * 15 + 475;
-            let mut core = Core::new(windows(50)).unwrap();
-            let mut found = Vec::new();
-            core.extend(&one[..at], |e| found.push(e));
-            core.extend(&two[at..], |e| found.push(e));
+            let found = identify_parts(&[&one[..at], &two[at..]], windows(50));
             assert!(found.len() > 16, "{}", found.len());
             for (i, estimate) in found.iter().enumerate() {
                 let is_told = estimate.flags.contains(Flags::MISFIT);

@@ -81,22 +81,26 @@ fn fisher(wave: &Wave, samples: u32, middle: f64, sample_rate: f64) -> SMatrix<f
     let (s2, c2) = sincos(2.0 * truth.angle);
     let n = f64::from(samples);
     let mut fisher = SMatrix::<f64, 7, 7>::zeros();
+    let (mut s, mut c) = sincos(-0.5 * omega * (n - 1.0) - truth.phase);
+    let (sin_step, cos_step) = sincos(omega);
     for k in 0..samples {
-        let t = f64::from(k) - 0.5 * (n - 1.0);
-        let (s, c) = sincos(omega * t - truth.phase);
         // Derivatives of (1)-(3) by tau and theta, then by each unknown. Time in window lengths keeps the matrix well scaled.
+        let share = (f64::from(k) - 0.5 * (n - 1.0)) / n;
         let c_tau = -a * s * c2 - b * c * s2;
         let d_tau = -a * s * s2 + b * c * c2;
         let c_angle = -2.0 * (a * c * s2 + b * s * c2);
         let d_angle = 2.0 * (a * c * c2 - b * s * s2);
-        let share = t / n;
-        for row in [
-            [c * c2, -s * s2, c_angle, share * c_tau, -c_tau, 1.0, 0.0],
-            [c * s2, s * c2, d_angle, share * d_tau, -d_tau, 0.0, 1.0],
-        ] {
-            let row = SMatrix::<f64, 1, 7>::from_row_slice(&row);
-            fisher += row.transpose() * row;
-        }
+        let rows = SMatrix::<f64, 2, 7>::from_columns(&[
+            [c * c2, c * s2].into(),
+            [-s * s2, s * c2].into(),
+            [c_angle, d_angle].into(),
+            [share * c_tau, share * d_tau].into(),
+            [-c_tau, -d_tau].into(),
+            [1.0, 0.0].into(),
+            [0.0, 1.0].into(),
+        ]);
+        fisher += rows.transpose() * rows;
+        (s, c) = (s * cos_step + c * sin_step, c * cos_step - s * sin_step);
     }
     fisher
 }

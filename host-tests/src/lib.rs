@@ -150,10 +150,7 @@ pub fn identify_signal(
     seed: u64,
     signal: impl Fn(f64) -> [f64; 2],
 ) -> Vec<Estimate> {
-    let flaws = Flaws {
-        noise,
-        ..Flaws::default()
-    };
+    let flaws = Flaws::white(noise);
     identify_changed(no_wave(), &flaws, settings, samples, seed, |k, [c, d]| {
         let [of_c, of_d] = signal(k as f64 / RATE);
         [c + of_c, d + of_d]

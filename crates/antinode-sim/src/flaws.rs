@@ -101,6 +101,14 @@ impl Default for Flaws {
 }
 
 impl Flaws {
+    /// White noise of this rms on both channels, and nothing else.
+    pub fn white(noise: f64) -> Flaws {
+        Flaws {
+            noise,
+            ..Flaws::default()
+        }
+    }
+
     /// The value of one ADC code, input units: `full_scale` / 2^(`bits` - 1). `None` without an ADC.
     pub fn lsb(&self) -> Option<f64> {
         self.bits

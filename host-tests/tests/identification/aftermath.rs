@@ -9,10 +9,7 @@ use host_tests::{
 };
 
 fn noisy(wave: &Wave, noise: f64) -> Flaws {
-    Flaws {
-        noise: noise * wave.main_amplitude,
-        ..Flaws::default()
-    }
+    Flaws::white(noise * wave.main_amplitude)
 }
 
 #[test]
@@ -230,10 +227,7 @@ fn a_pattern_that_turns_far_while_a_pick_off_is_dead_keeps_its_angle() {
             angle_rate,
             ..Wave::default()
         };
-        let flaws = Flaws {
-            noise: 1e-3,
-            ..Flaws::default()
-        };
+        let flaws = Flaws::white(1e-3);
         let [from, to] = [middle - dead, middle + dead].map(|t| (t * RATE) as usize);
         let found = identify_changed(wave, &flaws, windows(10), to + 5000, seed, |k, [c, d]| {
             [c, if (from..to).contains(&k) { 0.0 } else { d }]

@@ -110,10 +110,7 @@ fn codes_are_found_from_cold_whatever_their_size() {
         for seed in 0..2_000 {
             let period = 4.0 * 50f64.powf((seed as f64 * 0.618_034).fract());
             let wave = random_wave(seed, RATE / period, 0.5);
-            let flaws = Flaws {
-                noise: 0.02 * wave.main_amplitude,
-                ..Flaws::default()
-            };
+            let flaws = Flaws::white(0.02 * wave.main_amplitude);
             let (wave, flaws) = converted(&wave, &flaws, bits, share);
             let mut detector = DifferenceDetector::<i16>::new();
             let stream = codes(wave, &flaws, (20.0 * period) as usize, seed);

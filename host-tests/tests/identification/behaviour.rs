@@ -50,10 +50,7 @@ proptest! {
 #[test]
 fn a_lost_wave_is_searched_again_at_once_however_the_stream_is_cut() {
     for seed in 0..8 {
-        let flaws = Flaws {
-            noise: 0.01,
-            ..Flaws::default()
-        };
+        let flaws = Flaws::white(0.01);
         // Another wave follows, at a frequency that the windows of the first do not reach.
         let mut pairs = stream(random_wave(seed, 5332.0, 0.5), flaws.clone(), 3000, seed);
         pairs.extend(stream(random_wave(seed, 3100.0, 0.5), flaws, 6000, seed));
@@ -149,16 +146,7 @@ fn the_mean_return_detector_starts_the_same_identification() {
         detection: Detection::MeanReturn,
         ..windows(10)
     };
-    let estimates = identify(
-        wave,
-        &Flaws {
-            noise: 0.01,
-            ..Flaws::default()
-        },
-        settings,
-        3000,
-        6,
-    );
+    let estimates = identify(wave, &Flaws::white(0.01), settings, 3000, 6);
     assert!(estimates.len() > 10);
     assert!(
         estimates
@@ -266,10 +254,7 @@ fn a_nearly_circular_pattern_states_its_frequencys_deviation_rightly() {
             angle_rate: turning,
             ..Wave::default()
         };
-        let flaws = Flaws {
-            noise: 0.002,
-            ..Flaws::default()
-        };
+        let flaws = Flaws::white(0.002);
         let (mut squares, mut rows) = (0.0, 0.0);
         let found = identify(wave, &flaws, windows(10), 600_000, 1);
         assert!(found.len() > 3000, "{share}: {} windows", found.len());

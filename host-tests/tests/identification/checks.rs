@@ -197,10 +197,7 @@ fn white_noise_is_no_fault_at_few_samples_a_period() {
     // Windows of nine samples, in blocks of one: the sums about the third harmonic contain nothing that the others do not.
     for seed in 0..20 {
         let wave = random_wave(seed, RATE / 4.3, 0.2);
-        let flaws = Flaws {
-            noise: 0.02 * wave.main_amplitude,
-            ..Flaws::default()
-        };
+        let flaws = Flaws::white(0.02 * wave.main_amplitude);
         let estimates = identify(wave, &flaws, windows(2), 90_000, seed);
         assert!(estimates.len() > 9_900);
         for estimate in &estimates {
@@ -245,10 +242,7 @@ fn noise_is_no_fault_in_windows_of_very_many_samples() {
             decay_rate: 0.0,
             ..random_wave(seed, RATE / 175.7, 0.3)
         };
-        let flaws = Flaws {
-            noise: 2e-4 * wave.main_amplitude,
-            ..Flaws::default()
-        };
+        let flaws = Flaws::white(2e-4 * wave.main_amplitude);
         let mut core = Identifier::<f32, 400, 1002>::new(windows(1000)).unwrap();
         core.extend(&stream(wave, flaws, 900_000, seed), |estimate| {
             assert!(estimate.flags.is_empty(), "seed {seed}: {estimate:?}");
@@ -262,10 +256,7 @@ fn noise_is_no_fault_in_windows_of_very_many_samples() {
 fn a_lasting_rise_of_noise_becomes_the_new_level() {
     let rises = |seed, factor: f64| {
         let (wave, _) = gyro(seed);
-        let noise = Flaws {
-            noise: 0.002 * factor * wave.main_amplitude,
-            ..Flaws::default()
-        };
+        let noise = Flaws::white(0.002 * factor * wave.main_amplitude);
         let still = no_wave();
         let more = antinode_sim::Gyro::new(still, noise, RATE, seed + 50).unwrap();
         let more: Vec<_> = more.take(60_000).collect();
@@ -317,10 +308,7 @@ fn a_rise_of_noise_flags_three_windows_however_far_apart_they_are() {
         };
         let (wave, mut flaws) = gyro(3);
         flaws.noise = 0.0;
-        let noise = [1e-3, 1e-2].map(|noise| Flaws {
-            noise,
-            ..Flaws::default()
-        });
+        let noise = [1e-3, 1e-2].map(Flaws::white);
         let still = no_wave();
         let [quiet, loud] = noise.map(|noise| stream(still, noise, 60_000, 4));
         let found = identify_changed(wave, &flaws, settings, 60_000, 3, |k, [c, d]| {

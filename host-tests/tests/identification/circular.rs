@@ -21,10 +21,7 @@ fn a_pattern_is_circular_where_noise_or_rounding_hides_its_angle() {
             quadrature_amplitude: share,
             ..Wave::default()
         };
-        let flaws = Flaws {
-            noise,
-            ..Flaws::default()
-        };
+        let flaws = Flaws::white(noise);
         let found = identify(wave, &flaws, windows(10), 40_000, 2);
         assert!(found.len() > 200);
         let wanted = Flags::empty();
@@ -48,10 +45,7 @@ fn the_angle_is_continued_over_a_circular_stretch() {
                 angle: 0.3 * seed as f64,
                 ..Wave::default()
             };
-            let flaws = Flaws {
-                noise: 0.002,
-                ..Flaws::default()
-            };
+            let flaws = Flaws::white(0.002);
             let settings = Settings {
                 start_angle: 5.0,
                 ..windows(10)
@@ -108,10 +102,7 @@ fn passing_a_circle_is_neither_a_step_nor_a_jump() {
                 quadrature_amplitude: 1.0,
                 ..wave
             };
-            let flaws = Flaws {
-                noise,
-                ..Flaws::default()
-            };
+            let flaws = Flaws::white(noise);
             // The quadrature outgrows the main wave and comes back: beyond the circle the angle is another one.
             let found = identify_changed(wave, &flaws, windows(10), 70_000, seed, |k, [c, d]| {
                 let time = k as f64 / RATE;
@@ -148,10 +139,7 @@ fn the_first_angle_after_a_circle_that_began_without_an_angle_is_reacquired() {
         quadrature_amplitude: 1.0,
         ..wave
     };
-    let flaws = Flaws {
-        noise: 0.002,
-        ..Flaws::default()
-    };
+    let flaws = Flaws::white(0.002);
     // Circular from the start, or searched anew or calibrated while circular; with or without a gap before the circle ends.
     for before in ["nothing", "a search", "a calibration"] {
         for gap in [0, 50_000, 100_000] {

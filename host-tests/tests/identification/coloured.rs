@@ -42,10 +42,7 @@ fn noise(filters: Filters, rms: f64, seed: u64) -> Vec<[f64; 2]> {
     };
     let mut both = [filter(), filter()];
     let gyro = |noise| {
-        let flaws = Flaws {
-            noise,
-            ..Flaws::default()
-        };
+        let flaws = Flaws::white(noise);
         Gyro::new(Wave::default(), flaws, RATE, seed).unwrap()
     };
     let white = gyro(rms)
@@ -233,10 +230,7 @@ fn noise_that_comes_and_goes_is_no_misfit() {
         quadrature_amplitude: 0.1,
         ..Wave::default()
     };
-    let quiet = Flaws {
-        noise: 1e-3,
-        ..Flaws::default()
-    };
+    let quiet = Flaws::white(1e-3);
     // Half of the windows have four times the noise.
     let found = identify_changed(no_wave(), &quiet, windows(10), 400_000, 3, |k, [c, d]| {
         let random = (k as u32 / 190 + 1).wrapping_mul(2_654_435_769);
@@ -277,10 +271,7 @@ fn noise_that_grows_about_the_wave_alone_is_flagged_with_the_setting() {
     let (mut told, mut rows) = (0, 0);
     for seed in 0..30 {
         let wave = random_wave(seed, 5332.0, 0.5);
-        let white = Flaws {
-            noise: 0.01 * wave.main_amplitude,
-            ..Flaws::default()
-        };
+        let white = Flaws::white(0.01 * wave.main_amplitude);
         // Six times the noise variance for a fifth of the time; about the third harmonic there is hardly more.
         let grown = noise(TUNED, 0.027 * wave.main_amplitude, seed + 100);
         let is_grown = |k: usize| k % 4000 >= 3200;

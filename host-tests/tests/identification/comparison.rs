@@ -112,10 +112,7 @@ fn methods_agree_with_many_samples_and_near_a_circle() {
                     quadrature_amplitude: sign * share * wave.main_amplitude,
                     ..wave
                 };
-                let flaws = Flaws {
-                    noise: noise * wave.main_amplitude,
-                    ..Flaws::default()
-                };
+                let flaws = Flaws::white(noise * wave.main_amplitude);
                 let pairs = stream(wave, flaws, (500.0 * RATE / frequency) as usize, seed);
                 for periods in [2, 4, 10] {
                     let found = comparisons(&pairs, windows(periods));
@@ -143,10 +140,7 @@ fn methods_agree_on_the_axes_and_disagree_about_a_wrong_angle_there() {
                     quadrature_amplitude,
                     ..Wave::default()
                 };
-                let flaws = Flaws {
-                    noise: noise * wave.main_amplitude,
-                    ..Flaws::default()
-                };
+                let flaws = Flaws::white(noise * wave.main_amplitude);
                 let found = |seed: u64, spoil: &dyn Fn(usize, [f64; 2]) -> [f64; 2]| {
                     comparisons(&pairs(wave, &flaws, 90_000, seed, spoil), windows(10))
                 };
@@ -185,10 +179,7 @@ fn methods_agree_on_the_axes_and_disagree_about_a_wrong_angle_there() {
 
 #[test]
 fn methods_disagree_if_the_signal_is_not_one_wave() {
-    let flaws = Flaws {
-        noise: 0.002,
-        ..Flaws::default()
-    };
+    let flaws = Flaws::white(0.002);
     let loud = |spoil: &dyn Fn(usize, [f64; 2]) -> [f64; 2]| {
         let found = comparisons(&pairs(Wave::default(), &flaws, 9000, 1, spoil), windows(10));
         disagree(&found) as f64 / found.len() as f64
@@ -245,10 +236,7 @@ fn the_conditions_of_the_delay_hold_if_blocks_do_not_fit_the_period() {
     let mut found = Vec::new();
     for seed in 0..20 {
         let wave = random_wave(seed, 5332.0, 0.5);
-        let flaws = Flaws {
-            noise: 0.02 * wave.main_amplitude,
-            ..Flaws::default()
-        };
+        let flaws = Flaws::white(0.02 * wave.main_amplitude);
         let known = Settings {
             frequency: Some(5550.0),
             ..windows(200)
@@ -266,10 +254,7 @@ fn a_tone_that_fails_the_conditions_of_the_delay_ranks_algorithm_2_behind_3_and_
         quadrature_amplitude: 0.02,
         ..Wave::default()
     };
-    let flaws = Flaws {
-        noise: 0.01,
-        ..Flaws::default()
-    };
+    let flaws = Flaws::white(0.01);
     // A tone of 15 % of a_A: frequency in Hz, share on D and lead there in rad; which of (17) and (20) fail.
     for (tone, share, ahead, fails) in [
         // On one pick-off: it shows in (17), and not between the two.
@@ -305,10 +290,7 @@ fn a_tone_that_fails_the_conditions_of_the_delay_ranks_algorithm_2_behind_3_and_
 
 #[test]
 fn ranks_follow_conditions_and_j() {
-    let noisy = Flaws {
-        noise: 0.2,
-        ..Flaws::default()
-    };
+    let noisy = Flaws::white(0.2);
     // (8) holds within the noise.
     let found = comparisons(
         &stream(Wave::default(), noisy.clone(), 9000, 3),

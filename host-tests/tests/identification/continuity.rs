@@ -14,10 +14,7 @@ fn the_angle_is_continued_over_many_turns() {
             angle_rate: rate,
             ..Wave::default()
         };
-        let flaws = Flaws {
-            noise: 0.02,
-            ..Flaws::default()
-        };
+        let flaws = Flaws::white(0.02);
         let estimates = identify(wave, &flaws, windows(10), 300_000, 4);
         let offset = ((estimates[0].angle - wave.at(estimates[0].time).angle)
             / std::f64::consts::FRAC_PI_2)
@@ -75,10 +72,7 @@ fn a_slow_drift_is_tracked_for_minutes() {
         frequency_rate: 2.0,
         ..Wave::default()
     };
-    let flaws = Flaws {
-        noise: 0.01,
-        ..Flaws::default()
-    };
+    let flaws = Flaws::white(0.01);
     let estimates = identify(wave, &flaws, windows(10), 2_000_000, 8);
     let last = estimates.last().unwrap();
     assert!(last.frequency > 5371.0);
@@ -99,10 +93,7 @@ fn windows_may_overlap_or_leave_gaps() {
         decay_rate: 2.0,
         ..Wave::default()
     };
-    let flaws = Flaws {
-        noise: 0.01,
-        ..Flaws::default()
-    };
+    let flaws = Flaws::white(0.01);
     for hop in [1, 3, 10, 25] {
         let settings = Settings {
             hop: Some(hop),
@@ -140,10 +131,7 @@ fn the_angle_does_not_slip_at_the_end_of_a_ring_down() {
             angle: 0.3,
             ..Wave::default()
         };
-        let flaws = Flaws {
-            noise: 1.1,
-            ..Flaws::default()
-        };
+        let flaws = Flaws::white(1.1);
         let settings = Settings {
             start_angle: 0.3,
             ..windows(10)
@@ -170,10 +158,7 @@ fn a_search_or_a_change_of_settings_continues_the_angle() {
         angle_rate: 20.0,
         ..Wave::default()
     };
-    let flaws = Flaws {
-        noise: 0.01,
-        ..Flaws::default()
-    };
+    let flaws = Flaws::white(0.01);
     let pairs = stream(wave, flaws, 60_000, 2);
     let mut core = Core::new(windows(10)).unwrap();
     let refused = core.change(windows(1));

@@ -124,10 +124,7 @@ fn in_steps(
     (samples, seed): (usize, u64),
     most: f64,
 ) -> Vec<Estimate> {
-    let flaws = Flaws {
-        noise: noise * step,
-        ..Flaws::default()
-    };
+    let flaws = Flaws::white(noise * step);
     let settings = Settings {
         resolution: is_known.then_some(step as f32),
         ..windows(10)
@@ -220,10 +217,7 @@ fn steps_of_the_weaker_pick_off_are_stated_whichever_it_is() {
             resolution: Some(step as f32),
             ..windows(50)
         };
-        let flaws = Flaws {
-            noise: 1e-4,
-            ..Flaws::default()
-        };
+        let flaws = Flaws::white(1e-4);
         let [first, second] = [false, true].map(|is_swapped| {
             let found = identify_changed(wave, &flaws, settings, 10_000, 1, |_, pair| {
                 let [c, d] = pair.map(|x| (x / step).round() * step);

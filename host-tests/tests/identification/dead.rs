@@ -17,10 +17,7 @@ fn settings() -> Settings {
 /// Share of windows after the death of S_C that are flagged `dead_channel`, if its wave exceeded the floor by `deviations` deviations, in
 /// this noise, and it dies `depth` pairs after the start of a window.
 fn told(deviations: f64, noise: f64, depth: usize) -> f64 {
-    let flaws = Flaws {
-        noise,
-        ..Flaws::default()
-    };
+    let flaws = Flaws::white(noise);
     // In windows of ten periods an amplitude has a tenth of the noise.
     let size = FLOOR + 0.1 * noise * deviations;
     let (mut dead, mut count) = (0, 0);
@@ -89,10 +86,7 @@ fn a_pick_off_that_dies_within_a_window_is_flagged_from_the_stated_sizes_on() {
 fn either_pick_off_that_is_constant_from_the_start_is_flagged_in_every_row() {
     for seed in 0..40 {
         let wave = random_wave(seed, 5332.0, 0.2);
-        let flaws = Flaws {
-            noise: 1e-3 * wave.main_amplitude,
-            ..Flaws::default()
-        };
+        let flaws = Flaws::white(1e-3 * wave.main_amplitude);
         let mut pairs = stream(wave, flaws, 2000, seed);
         let (of, level) = (seed as usize % 2, 0.1 * (seed as f32 - 20.0));
         for pair in &mut pairs {
@@ -123,10 +117,7 @@ fn patterns_that_turn_past_the_axes_are_no_dead_pick_offs() {
                 angle_rate,
                 ..Wave::default()
             };
-            let flaws = Flaws {
-                noise,
-                ..Flaws::default()
-            };
+            let flaws = Flaws::white(noise);
             let pairs = stream(wave, flaws, 60_000, seed);
             let mut core = Core::new(windows(10)).unwrap();
             core.extend(&pairs, |estimate| {

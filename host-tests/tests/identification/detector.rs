@@ -117,10 +117,7 @@ where
     [S; 2]: SamplePair<S>,
 {
     let wave = no_wave();
-    let flaws = Flaws {
-        noise,
-        ..Flaws::default()
-    };
+    let flaws = Flaws::white(noise);
     let mut core = Identifier::<S, 200, 16>::new(windows(10)).unwrap();
     let mut found = 0;
     let gyro = Gyro::new(wave, flaws, RATE, 7).unwrap();
@@ -178,10 +175,7 @@ fn the_first_estimate_comes_within_four_periods_of_its_window() {
     for seed in 0..300 {
         let (wave, period) = wave(seed);
         for periods in [2u16, 10, 50] {
-            let flaws = Flaws {
-                noise: 0.02 * wave.main_amplitude,
-                ..Flaws::default()
-            };
+            let flaws = Flaws::white(0.02 * wave.main_amplitude);
             let samples = ((f64::from(periods) + 6.0) * period) as usize;
             let estimates = identify(wave, &flaws, windows(periods), samples, seed);
             let end = estimates.first().map(|e| e.end() as f64 / period);

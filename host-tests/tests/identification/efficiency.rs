@@ -139,10 +139,7 @@ fn rates_scatter_as_stated() {
             decay_rate: 1.0,
             ..random_wave(seed, 5332.0, 0.5)
         };
-        let flaws = Flaws {
-            noise: 0.01 * wave.main_amplitude,
-            ..Flaws::default()
-        };
+        let flaws = Flaws::white(0.01 * wave.main_amplitude);
         for estimate in identify(wave, &flaws, windows(10), 2500, seed) {
             let truth = wave.at(estimate.time);
             let turn = f64::from(estimate.angle_rate) - truth.angle_rate;
@@ -174,10 +171,7 @@ fn a_window_in_which_the_pattern_turns_far_reaches_the_bound() {
                     decay_rate: loss / window,
                     ..random_wave(seed, 5332.0, 0.3)
                 };
-                let flaws = Flaws {
-                    noise: 1e-3 * wave.main_amplitude,
-                    ..Flaws::default()
-                };
+                let flaws = Flaws::white(1e-3 * wave.main_amplitude);
                 let samples = (4.5 * window * RATE) as usize + 100;
                 // The first window assumes a pattern at rest.
                 for estimate in identify(wave, &flaws, windows(periods), samples, seed)
@@ -217,10 +211,7 @@ fn the_first_window_of_a_turning_wave_states_its_frequencys_deviation_rightly() 
                 angle: 0.01 * seed as f64,
                 ..Wave::default()
             };
-            let flaws = Flaws {
-                noise: 2e-3,
-                ..Flaws::default()
-            };
+            let flaws = Flaws::white(2e-3);
             let first = identify(wave, &flaws, windows(10), 300, seed)[0];
             let error = (first.frequency - wave.frequency) / f64::from(first.frequency_std);
             squares += error * error;
@@ -240,10 +231,7 @@ fn a_long_window_in_much_noise_does_not_slip_a_turn_from_cold() {
     for periods in [100u16, 250] {
         for seed in 0..40 {
             let wave = random_wave(seed, 5332.0, 0.3);
-            let flaws = Flaws {
-                noise: 0.2 * wave.main_amplitude,
-                ..Flaws::default()
-            };
+            let flaws = Flaws::white(0.2 * wave.main_amplitude);
             let samples = 19 * usize::from(periods) + 400;
             let first = identify(wave, &flaws, windows(periods), samples, seed)[0];
             let error = errors(&first, &wave)[3] / stated(&first)[3];

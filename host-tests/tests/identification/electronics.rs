@@ -195,10 +195,7 @@ fn a_pick_off_that_dies_is_flagged_whatever_its_calibration_and_a_wave_that_ends
         };
         let case = format!("gain {gain_ratio}, angle {pick_off_angle}");
         let settings = calibrated(&flaws, 10);
-        let silence = Flaws {
-            noise: flaws.noise,
-            ..Flaws::default()
-        };
+        let silence = Flaws::white(flaws.noise);
         let still = no_wave();
         let gyro = Gyro::new(wave, flaws, RATE, 1).unwrap();
         let dead = Gyro::new(still, silence, RATE, 2).unwrap();
@@ -234,10 +231,7 @@ fn a_calibrated_gain_neither_makes_a_harmonic_nor_hides_one() {
         for seed in 0..4 {
             let (mut wave, _) = gyro(seed);
             wave.angle = std::f64::consts::FRAC_PI_4;
-            let flaws = Flaws {
-                noise: if cubic == 0.0 { 0.1 } else { 5e-4 } * wave.main_amplitude,
-                ..Flaws::default()
-            };
+            let flaws = Flaws::white(if cubic == 0.0 { 0.1 } else { 5e-4 } * wave.main_amplitude);
             let settings = Settings {
                 calibration: Calibration {
                     gain_ratio: gain as f32,
@@ -272,10 +266,7 @@ fn clipping_of_one_end_of_one_pick_off_is_flagged() {
     };
     // Without known rails the crests must be flat; the noise hides their harmonic.
     for (is_known, level, noise) in [(false, 1.5, 0.1), (true, 1.65, 0.005)] {
-        let flaws = Flaws {
-            noise,
-            ..Flaws::default()
-        };
+        let flaws = Flaws::white(noise);
         for (channel, side) in [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)] {
             for is_cut in [false, true] {
                 let level = if is_cut { level } else { 3.0 };
@@ -307,10 +298,7 @@ fn a_pick_off_in_a_node_is_not_dead_by_a_fault_of_the_other() {
         quadrature_amplitude: 0.0,
         ..Wave::default()
     };
-    let flaws = Flaws {
-        noise: 0.01,
-        ..Flaws::default()
-    };
+    let flaws = Flaws::white(0.01);
     // A spike every third window, in the pick-off that has the wave.
     let found = identify_changed(wave, &flaws, windows(10), 200_000, 1, |k, [c, d]| {
         let is_spike = k > 20_000 && k % 570 == 100;
@@ -339,10 +327,7 @@ fn a_small_harmonic_is_not_taken_for_a_limiter_where_its_image_lies_beside_it() 
                 decay_rate,
                 ..Wave::default()
             };
-            let flaws = Flaws {
-                noise: 1e-5,
-                ..Flaws::default()
-            };
+            let flaws = Flaws::white(1e-5);
             let found = identify_changed(wave, &flaws, windows(50), 3000, 1, |_, pair| {
                 pair.map(|x| x - 3.4e-3 * x * x * x)
             });

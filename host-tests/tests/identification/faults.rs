@@ -211,10 +211,7 @@ fn a_circular_pattern_has_no_angle() {
             quadrature_amplitude: 0.9999 * sign,
             ..Wave::default()
         };
-        let flaws = Flaws {
-            noise: 0.002,
-            ..Flaws::default()
-        };
+        let flaws = Flaws::white(0.002);
         let estimates = identify(wave, &flaws, windows(10), 50_000, 1);
         assert!(estimates.len() > 200);
         for estimate in estimates {
@@ -320,10 +317,7 @@ fn a_wave_of_another_frequency_in_place_of_the_wave_is_found() {
                     frequency,
                     ..Wave::default()
                 };
-                let flaws = Flaws {
-                    noise,
-                    ..Flaws::default()
-                };
+                let flaws = Flaws::white(noise);
                 let mut pairs = stream(wave(from), flaws.clone(), 20_000, 1);
                 pairs.extend(stream(wave(to), flaws, 40_000, 2));
                 let mut core = Core::new(windows(periods)).unwrap();

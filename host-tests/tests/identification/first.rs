@@ -17,10 +17,7 @@ fn a_spike_or_a_small_step_in_the_first_window_is_flagged() {
         for seed in 0..100 {
             let wave = random_wave(seed, 5332.0, 0.3);
             let a = wave.main_amplitude;
-            let flaws = Flaws {
-                noise: 0.002 * a,
-                ..Flaws::default()
-            };
+            let flaws = Flaws::white(0.002 * a);
             let settings = Settings {
                 frequency: Some(5332.0),
                 ..windows(periods)
@@ -44,10 +41,7 @@ fn a_step_within_a_long_first_window_is_flagged() {
     for (periods, noise) in [(50, 0.002), (50, 0.02)] {
         for seed in 0..10 {
             let wave = random_wave(seed, 5332.0, 0.3);
-            let flaws = Flaws {
-                noise: noise * wave.main_amplitude,
-                ..Flaws::default()
-            };
+            let flaws = Flaws::white(noise * wave.main_amplitude);
             let louder = Wave {
                 main_amplitude: 1.5 * wave.main_amplitude,
                 quadrature_amplitude: 1.5 * wave.quadrature_amplitude,
@@ -90,10 +84,7 @@ fn a_step_within_the_first_window_is_flagged() {
             let mut rows = 0;
             for seed in 0..100u64 {
                 let wave = random_wave(seed, 5332.0, 0.3);
-                let flaws = Flaws {
-                    noise: noise * wave.main_amplitude,
-                    ..Flaws::default()
-                };
+                let flaws = Flaws::white(noise * wave.main_amplitude);
                 let settings = Settings {
                     frequency: Some(5332.0),
                     ..windows(periods)
@@ -162,10 +153,7 @@ fn a_tone_of_twice_the_frequency_is_flagged_in_the_first_window_though_it_looks_
         for seed in 0..20 {
             let wave = random_wave(seed, RATE / period, 0.3);
             let a = wave.main_amplitude;
-            let flaws = Flaws {
-                noise: 1e-3 * a,
-                ..Flaws::default()
-            };
+            let flaws = Flaws::white(1e-3 * a);
             let settings = Settings {
                 frequency: Some(wave.frequency as f32),
                 ..windows(periods)
@@ -196,10 +184,7 @@ fn the_frequency_of_a_first_window_at_rest_is_better_than_stated_as_documented()
                     quadrature_amplitude: (quadrature * a).copysign(wave.quadrature_amplitude),
                     ..wave
                 };
-                let flaws = Flaws {
-                    noise: noise * a,
-                    ..Flaws::default()
-                };
+                let flaws = Flaws::white(noise * a);
                 let samples = (RATE / 5332.0 * (f64::from(periods) + 6.0)) as usize;
                 let found = identify(wave, &flaws, windows(periods), samples, seed);
                 ratio.add(&found[0], &wave);
@@ -220,10 +205,7 @@ fn no_first_window_of_seven_or_ten_pairs_is_clipped_by_noise() {
         let mut first = 0;
         for seed in 0..1000 {
             let wave = random_wave(seed, RATE / period, 0.3);
-            let flaws = Flaws {
-                noise: 0.013 * wave.main_amplitude,
-                ..Flaws::default()
-            };
+            let flaws = Flaws::white(0.013 * wave.main_amplitude);
             let settings = Settings {
                 frequency: Some(wave.frequency as f32),
                 ..windows(periods)
@@ -255,10 +237,7 @@ fn the_shortest_first_windows_exceed_their_deviations_as_documented() {
         let mut ratio = StatedRatio::default();
         for seed in 0..3000 {
             let wave = random_wave(seed, RATE / period, 0.5);
-            let flaws = Flaws {
-                noise: 0.01 * wave.main_amplitude,
-                ..Flaws::default()
-            };
+            let flaws = Flaws::white(0.01 * wave.main_amplitude);
             let settings = Settings {
                 frequency: Some(wave.frequency as f32),
                 ..windows(periods)

@@ -14,10 +14,7 @@ fn old_angles_are_not_used_for_the_present_rate() {
             quadrature_amplitude: 0.6,
             ..random_wave(seed, 5000.0, 0.5)
         };
-        let flaws = Flaws {
-            noise: 3e-6,
-            ..Flaws::default()
-        };
+        let flaws = Flaws::white(3e-6);
         let pairs = stream(wave, flaws, 6_000, seed);
         let mut core = Core::new(windows(10)).unwrap();
         let mut found = Vec::new();
@@ -62,10 +59,7 @@ fn the_rate_is_learnt_over_gaps() {
             angle_rate,
             ..Wave::default()
         };
-        let flaws = Flaws {
-            noise: 0.005,
-            ..Flaws::default()
-        };
+        let flaws = Flaws::white(0.005);
         let estimates = identify(wave, &flaws, settings, 2_000_000, seed as u64);
         assert!(estimates.len() > 90);
         for (index, pair) in estimates.windows(2).enumerate() {
@@ -97,10 +91,7 @@ fn a_rate_that_changes_between_distant_windows_is_learnt_anew() {
         [1.0, 1.0 + alias],
     ];
     for (seed, [first, second]) in rates.into_iter().enumerate() {
-        let flaws = Flaws {
-            noise: 0.005,
-            ..Flaws::default()
-        };
+        let flaws = Flaws::white(0.005);
         // After 10 s the wave has its initial phase again.
         let wave = Wave {
             main_amplitude: 0.5,
@@ -160,10 +151,7 @@ fn a_rate_that_changes_in_a_gap_leaves_no_wrong_angle_unflagged() {
         };
         let from = 20_000;
         let to = from + (gap * RATE) as usize;
-        let flaws = Flaws {
-            noise: 1e-3,
-            ..Flaws::default()
-        };
+        let flaws = Flaws::white(1e-3);
         let mut pairs = stream(no_wave(), flaws, to + 20_000, 1);
         for (k, pair) in pairs.iter_mut().enumerate() {
             let t = k as f64 / RATE;

@@ -11,15 +11,7 @@ fn a_reported_gap_costs_only_its_window() {
         angle_rate: 0.5,
         ..Wave::default()
     };
-    let pairs = stream(
-        wave,
-        Flaws {
-            noise: 0.01,
-            ..Flaws::default()
-        },
-        40_000,
-        5,
-    );
+    let pairs = stream(wave, Flaws::white(0.01), 40_000, 5);
     let mut core = Core::new(windows(10)).unwrap();
     let mut estimates = Vec::new();
     core.extend(&pairs[..20_100], |e| estimates.push(e));
@@ -58,10 +50,7 @@ fn the_angle_is_continued_over_gaps_in_which_it_turns_far() {
         hop: Some(1000),
         ..windows(10)
     };
-    let flaws = Flaws {
-        noise: 0.002,
-        ..Flaws::default()
-    };
+    let flaws = Flaws::white(0.002);
     let estimates = identify(wave, &flaws, settings, 300_000, 3);
     assert!(estimates.len() > 12);
     for pair in estimates.windows(2) {
@@ -84,10 +73,7 @@ fn a_long_gap_leaves_no_wrong_angle_unflagged() {
                 angle_rate: 0.0,
                 ..random_wave(seed, 5332.0, 0.2)
             };
-            let flaws = Flaws {
-                noise: 0.005 * wave.main_amplitude,
-                ..Flaws::default()
-            };
+            let flaws = Flaws::white(0.005 * wave.main_amplitude);
             let mut gyro = Gyro::new(wave, flaws, RATE, seed).unwrap();
             let mut core = Core::new(windows(10)).unwrap();
             let push = |gyro: &mut Gyro, core: &mut Core, count| -> Vec<Estimate> {
@@ -129,10 +115,7 @@ fn distant_windows_state_their_frequencys_deviation_as_well() {
             angle_rate: 0.02,
             ..Wave::default()
         };
-        let flaws = Flaws {
-            noise: 1e-4,
-            ..Flaws::default()
-        };
+        let flaws = Flaws::white(1e-4);
         let settings = Settings {
             hop: Some(hop),
             ..windows(10)
@@ -187,10 +170,7 @@ fn gaps_in_which_the_pattern_turns_unseen_leave_no_wrong_angle_unflagged() {
             angle_rate,
             ..Wave::default()
         };
-        let flaws = Flaws {
-            noise: 0.005,
-            ..Flaws::default()
-        };
+        let flaws = Flaws::white(0.005);
         let estimates = identify(wave, &flaws, settings, 4_000_000, seed as u64);
         assert!(estimates.len() > 40);
         let quarter = std::f64::consts::FRAC_PI_2;
@@ -224,10 +204,7 @@ fn noise_is_no_step_across_a_gap() {
         ..windows(10)
     };
     for seed in 0..4 {
-        let flaws = Flaws {
-            noise: 0.05,
-            ..Flaws::default()
-        };
+        let flaws = Flaws::white(0.05);
         let wave = Wave {
             main_amplitude: 1.0,
             ..Wave::default()
@@ -257,10 +234,7 @@ fn a_quarter_turn_that_began_in_a_gap_is_no_phase_jump() {
             angle_rate: rate,
             ..wave
         };
-        let flaws = Flaws {
-            noise: 1e-3 * wave.main_amplitude,
-            ..Flaws::default()
-        };
+        let flaws = Flaws::white(1e-3 * wave.main_amplitude);
         let [before, after] =
             [wave, turned].map(|wave| stream(wave, flaws.clone(), at + gap + 1000, seed));
         let mut core = Core::new(windows(10)).unwrap();

@@ -14,10 +14,7 @@ fn given_up_after(
     let period = 20;
     let wave = random_wave(seed, RATE / f64::from(period), 0.3);
     let a = wave.main_amplitude;
-    let flaws = Flaws {
-        noise: 1e-3 * a,
-        ..Flaws::default()
-    };
+    let flaws = Flaws::white(1e-3 * a);
     let window = usize::from(periods) * period as usize;
     let at = 6 * window + 37;
     let mut core = Core::new(windows(periods)).unwrap();

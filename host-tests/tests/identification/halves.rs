@@ -9,10 +9,7 @@ use host_tests::{RATE, stream, windows};
 #[test]
 fn settings_changed_in_the_documented_order_show_in_no_block_of_the_old_ones() {
     let wave = random_wave(3, 5332.0, 0.4);
-    let flaws = Flaws {
-        noise: 0.01 * wave.main_amplitude,
-        ..Flaws::default()
-    };
+    let flaws = Flaws::white(0.01 * wave.main_amplitude);
     let pairs = stream(wave, flaws, 128 * 200, 3);
     let mut settings = windows(10);
     let mut front = Front::<f32, 200>::new(settings).unwrap();

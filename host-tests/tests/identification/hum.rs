@@ -39,10 +39,7 @@ fn slow_waves_in_much_hum_are_not_clipped() {
         for size in [0.1, 0.3, 1.0] {
             let wave = random_wave(27, RATE / period, 0.5);
             let size = size * wave.main_amplitude;
-            let flaws = Flaws {
-                noise: size / 50.0,
-                ..Flaws::default()
-            };
+            let flaws = Flaws::white(size / 50.0);
             let samples = (period * f64::from(periods) * 200.0) as usize;
             let settings = settings(periods, true);
             let found = identify_changed(wave, &flaws, settings, samples, 27, |k, [c, d]| {
@@ -106,10 +103,7 @@ fn slow_hum_does_not_bend_blocks() {
         for seed in 0..20 {
             let wave = random_wave(seed, 5332.0, 0.5);
             let noise = noise * wave.main_amplitude;
-            let flaws = Flaws {
-                noise,
-                ..Flaws::default()
-            };
+            let flaws = Flaws::white(noise);
             let size = 0.1 * wave.main_amplitude;
             let found = identify_changed(
                 wave,
@@ -144,10 +138,7 @@ fn hum_alone_is_no_fault_over_gaps_and_at_its_crests() {
     ] {
         for seed in 0..4 {
             let wave = random_wave(seed, 5332.0, 0.5);
-            let flaws = Flaws {
-                noise: 2e-4 * wave.main_amplitude,
-                ..Flaws::default()
-            };
+            let flaws = Flaws::white(2e-4 * wave.main_amplitude);
             let settings = Settings {
                 hop,
                 ..settings(periods, true)
@@ -165,10 +156,7 @@ fn hum_alone_is_no_fault_over_gaps_and_at_its_crests() {
 fn the_shortest_windows_that_allow_the_setting_use_it() {
     for (periods, hop) in [(5, None), (10, Some(5))] {
         let wave = random_wave(1, 5332.0, 0.5);
-        let flaws = Flaws {
-            noise: 2e-4,
-            ..Flaws::default()
-        };
+        let flaws = Flaws::white(2e-4);
         let [with, without] = [true, false].map(|hum| {
             let settings = Settings {
                 hop,
@@ -219,10 +207,7 @@ fn a_bad_block_is_flagged_if_blocks_have_their_own_offsets() {
         let wave = random_wave(seed, 5332.0, 0.3);
         let noise = 0.002 * wave.main_amplitude;
         let size = noise * f64::sqrt(2.0 * 70.0 / f64::from(length as u32));
-        let flaws = Flaws {
-            noise,
-            ..Flaws::default()
-        };
+        let flaws = Flaws::white(noise);
         let settings = Settings {
             frequency: Some(5332.0),
             ..settings(50, true)
@@ -260,10 +245,7 @@ fn a_tone_that_no_block_shows_is_flagged_in_hum() {
             for seed in 0..10 {
                 let wave = random_wave(seed, 5000.0, 0.3);
                 let a = wave.main_amplitude;
-                let flaws = Flaws {
-                    noise: 0.002 * a,
-                    ..Flaws::default()
-                };
+                let flaws = Flaws::white(0.002 * a);
                 let settings = Settings {
                     frequency: Some(5000.0),
                     ..settings(40, true)
@@ -295,10 +277,7 @@ fn a_ring_down_is_tracked_below_its_hum() {
         decay_rate: 1.0,
         ..Wave::default()
     };
-    let flaws = Flaws {
-        noise: 1e-4,
-        ..Flaws::default()
-    };
+    let flaws = Flaws::white(1e-4);
     // At the end the hum is three times the wave.
     let samples = 800_000;
     let with = identified(wave, flaws.clone(), 1e-3, samples, settings(10, true), 1);
@@ -322,10 +301,7 @@ fn waves_of_any_valid_size_are_found_with_the_setting_too() {
             quadrature_amplitude: 0.1 * scale,
             ..Wave::default()
         };
-        let flaws = Flaws {
-            noise: 1e-3 * scale,
-            ..Flaws::default()
-        };
+        let flaws = Flaws::white(1e-3 * scale);
         let settings = Settings {
             hop: Some(10),
             ..settings(10, true)

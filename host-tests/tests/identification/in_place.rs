@@ -39,10 +39,7 @@ fn a_change_keeps_all_other_settings() {
 #[test]
 fn a_configuration_in_place_gives_what_a_new_start_gives() {
     let wave = random_wave(7, 5332.0, 0.4);
-    let flaws = Flaws {
-        noise: 0.01,
-        ..Flaws::default()
-    };
+    let flaws = Flaws::white(0.01);
     let pairs = stream(wave, flaws, 8000, 7);
     let run = |front: &mut Front<f32, 200>, tracker: &mut Tracker<40>| {
         let mut found = Vec::new();

@@ -96,10 +96,7 @@ fn noise_nearly_as_large_as_the_wave_hides_no_wave_in_long_windows() {
             let mut honesty = StatedRatio::default();
             for seed in 0..10 {
                 let wave = random_wave(seed, RATE / period, 0.3);
-                let flaws = Flaws {
-                    noise: noise * wave.main_amplitude,
-                    ..Flaws::default()
-                };
+                let flaws = Flaws::white(noise * wave.main_amplitude);
                 let samples = (period * f64::from(periods) * 5.6) as usize;
                 let settings = told(periods, wave.frequency, 0.0);
                 let mut core =
@@ -347,10 +344,7 @@ fn a_wave_near_three_times_the_known_frequency_gives_no_row() {
     for (seed, off) in (0..).zip([0.0, 5e-4, 1e-3, 2e-3]) {
         for periods in [5, 10, 50] {
             let wave = random_wave(seed, 3.0 * 5332.0 * (1.0 + off), 0.3);
-            let flaws = Flaws {
-                noise: 1e-3 * wave.main_amplitude,
-                ..Flaws::default()
-            };
+            let flaws = Flaws::white(1e-3 * wave.main_amplitude);
             let found = identify(wave, &flaws, told(periods, 5332.0, 0.0), 20_000, seed);
             assert!(found.is_empty(), "{off}, {periods} periods: {:?}", found[0]);
         }
@@ -364,10 +358,7 @@ fn a_wave_that_sinks_below_earlier_noise_is_not_searched() {
         decay_rate: 0.6,
         ..Wave::default()
     };
-    let flaws = Flaws {
-        noise: 0.9,
-        ..Flaws::default()
-    };
+    let flaws = Flaws::white(0.9);
     let settings = told(200, wave.frequency, 0.0);
     let found = identify(wave, &flaws, settings, 200_000, 3);
     assert!(found.len() > 50 && wave.at(2.0).main_amplitude < 0.4);

@@ -11,10 +11,7 @@ fn of_parts(base: Settings, begins: bool) -> [usize; 2] {
     for seed in 0..400u64 {
         let period = 5.0 + 0.137 * seed as f64;
         let wave = random_wave(seed, RATE / period, 0.5);
-        let flaws = Flaws {
-            noise: 0.002 * wave.main_amplitude,
-            ..Flaws::default()
-        };
+        let flaws = Flaws::white(0.002 * wave.main_amplitude);
         let settings = Settings {
             frequency: Some((RATE / period) as f32),
             ..base

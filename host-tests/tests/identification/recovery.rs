@@ -55,10 +55,7 @@ fn a_wave_that_comes_back_is_reacquired_once_and_its_angle_continued() {
             angle_rate: 8.0,
             ..random_wave(seed, 5332.0, 0.3)
         };
-        let flaws = Flaws {
-            noise: 0.002 * wave.main_amplitude,
-            ..Flaws::default()
-        };
+        let flaws = Flaws::white(0.002 * wave.main_amplitude);
         let found = identify_changed(wave, &flaws, windows(10), 150_000, seed, |k, pair| {
             if (90_000..100_000).contains(&k) {
                 [0.0; 2]
@@ -230,10 +227,7 @@ fn a_wave_that_leaps_to_a_frequency_hardly_seen_by_blocks_is_found_again() {
     for (periods, period, times) in [(20, 72.3, 1.56), (10, 46.43, 1.591), (10, 75.0, 1.44)] {
         for seed in 0..5 {
             let wave = random_wave(seed, RATE / period, 0.3);
-            let flaws = Flaws {
-                noise: 3e-3 * wave.main_amplitude,
-                ..Flaws::default()
-            };
+            let flaws = Flaws::white(3e-3 * wave.main_amplitude);
             let frequency = times * wave.frequency;
             let other = Wave { frequency, ..wave };
             let at = (12.3 * period * f64::from(periods)) as usize;

@@ -109,10 +109,7 @@ fn in_noise(noise: f64) -> Vec<Codes> {
             angle_rate: 0.3,
             ..random_wave(seed, 5332.0, 0.2)
         };
-        let flaws = Flaws {
-            noise: noise * wave.main_amplitude,
-            ..Flaws::default()
-        };
+        let flaws = Flaws::white(noise * wave.main_amplitude);
         let (wave, flaws) = converted(&wave, &flaws, 12, 0.8);
         (wave, codes(wave, &flaws, 60_000, seed))
     };

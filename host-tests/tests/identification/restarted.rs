@@ -10,10 +10,7 @@ use crate::detector::wave;
 /// Samples that leave a search in any state: part of a wave, of two tones or of noise.
 fn before(seed: u64) -> Vec<[f32; 2]> {
     let length = (seed as usize * 389) % 2500 + 1;
-    let flaws = |noise| Flaws {
-        noise,
-        ..Flaws::default()
-    };
+    let flaws = |noise| Flaws::white(noise);
     let (one, _) = wave(seed);
     let (other, _) = wave(seed + 7);
     match seed % 3 {
@@ -31,10 +28,7 @@ fn before(seed: u64) -> Vec<[f32; 2]> {
 /// The wave that follows, of 4 to 200 samples a period, in some noise.
 fn after(seed: u64) -> Vec<[f32; 2]> {
     let (wave, period) = wave(seed + 1000);
-    let flaws = Flaws {
-        noise: 0.05,
-        ..Flaws::default()
-    };
+    let flaws = Flaws::white(0.05);
     stream(wave, flaws, (12.0 * period) as usize, seed)
 }
 

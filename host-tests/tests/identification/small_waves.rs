@@ -19,10 +19,7 @@ where
 {
     let (wave, period) = wave(seed);
     let scale = codes / wave.main_amplitude;
-    let flaws = Flaws {
-        noise: noise / scale,
-        ..Flaws::default()
-    };
+    let flaws = Flaws::white(noise / scale);
     let mut detector = DifferenceDetector::<S>::new();
     let gyro = Gyro::new(wave, flaws, RATE, seed).unwrap();
     let found = gyro

@@ -29,10 +29,7 @@ fn phases_scatter_as_stated() {
                 quadrature_amplitude: quadrature * wave.main_amplitude,
                 ..wave
             };
-            let flaws = Flaws {
-                noise: 0.01 * wave.main_amplitude,
-                ..Flaws::default()
-            };
+            let flaws = Flaws::white(0.01 * wave.main_amplitude);
             let samples = 19 * usize::from(periods) * 8 + 300;
             for estimate in identify(wave, &flaws, windows(periods), samples, seed) {
                 let error = error_of_phase(&estimate, &wave);
@@ -127,10 +124,7 @@ fn deviations_hold_in_first_windows_with_more_noise() {
     let mut honesty = StatedRatio::default();
     for seed in 0..400 {
         let wave = random_wave(seed, 5332.0, 0.3);
-        let flaws = |share: f64| Flaws {
-            noise: share * wave.main_amplitude,
-            ..Flaws::default()
-        };
+        let flaws = |share: f64| Flaws::white(share * wave.main_amplitude);
         let quiet = stream(wave, flaws(0.002), 5000, seed);
         let loud = stream(wave, flaws(0.02), 6000, seed);
         let found = identify_parts(&[&quiet, &loud[5000..]], windows(10));
@@ -152,10 +146,7 @@ fn a_bad_first_window_does_not_spoil_later_ones() {
         for seed in 0..40 {
             let wave = random_wave(seed, 5332.0, 0.3);
             let a = wave.main_amplitude;
-            let flaws = |noise: f64| Flaws {
-                noise: 0.002 * noise * a,
-                ..Flaws::default()
-            };
+            let flaws = |noise: f64| Flaws::white(0.002 * noise * a);
             let loud = stream(wave, flaws(noise), 190, seed);
             let settings = Settings {
                 frequency: Some(5332.0),
@@ -227,10 +218,7 @@ fn rows_of_waves_with_splits_agree_with_their_truth() {
             frequency_angle: 0.17 * seed as f64,
             ..random_wave(seed, 5332.0, 0.5)
         };
-        let flaws = Flaws {
-            noise: 2e-4 * wave.main_amplitude,
-            ..Flaws::default()
-        };
+        let flaws = Flaws::white(2e-4 * wave.main_amplitude);
         let estimates = identify(wave, &flaws, windows(10), 8000, seed);
         // The first window assumes a pattern at rest.
         for estimate in estimates.iter().skip(1) {
@@ -271,10 +259,7 @@ fn deviations_follow_unflagged_changes_of_noise() {
             for seed in 0..300 {
                 let wave = random_wave(seed, 5332.0, 0.3);
                 let change = 19 * 20 * usize::from(periods) + 100;
-                let flaws = |share: f64| Flaws {
-                    noise: share * wave.main_amplitude,
-                    ..Flaws::default()
-                };
+                let flaws = |share: f64| Flaws::white(share * wave.main_amplitude);
                 let mut pairs = stream(wave, flaws(0.005), 2 * change, seed);
                 let changed = stream(wave, flaws(0.005 * factor), 2 * change, seed);
                 pairs[change..].copy_from_slice(&changed[change..]);

@@ -107,10 +107,7 @@ impl Trials {
 
 /// The pairs of a wave in noise, from one on.
 fn pairs(wave: Wave, seed: u64, from: usize) -> impl Iterator<Item = [f32; 2]> {
-    let flaws = Flaws {
-        noise: 0.02,
-        ..Flaws::default()
-    };
+    let flaws = Flaws::white(0.02);
     let gyro = Gyro::new(wave, flaws, RATE, seed).unwrap();
     gyro.skip(from).map(|pair| pair.map(|x| x as f32))
 }

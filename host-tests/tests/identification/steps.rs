@@ -9,10 +9,7 @@ use host_tests::{Core, RATE, identify_changed, identify_parts, stream, windows};
 const BEFORE: usize = 80;
 
 fn flaws(wave: &Wave) -> Flaws {
-    Flaws {
-        noise: 0.002 * wave.main_amplitude,
-        ..Flaws::default()
-    }
+    Flaws::white(0.002 * wave.main_amplitude)
 }
 
 /// Estimates of a stream that from the start of a window on is that of the wave `to`, in the same noise.
@@ -186,10 +183,7 @@ fn a_steadily_growing_quadrature_is_no_step() {
         quadrature_amplitude: 1.0,
         ..wave
     };
-    let flaws = Flaws {
-        noise: 2e-4,
-        ..Flaws::default()
-    };
+    let flaws = Flaws::white(2e-4);
     // By 0.01 a_A a window, up and down, as a control loop may do.
     let found = identify_changed(wave, &flaws, windows(10), 60_000, 1, |k, [c, d]| {
         let time = k as f64 / RATE;
@@ -216,10 +210,7 @@ fn a_small_turn_within_a_long_window_is_flagged() {
                 angle: wave.angle + turn,
                 ..wave
             };
-            let flaws = Flaws {
-                noise: noise * wave.main_amplitude,
-                ..Flaws::default()
-            };
+            let flaws = Flaws::white(noise * wave.main_amplitude);
             let (one, two) = (
                 stream(wave, flaws.clone(), 15_000, seed),
                 stream(to, flaws, 20_000, seed),
@@ -270,10 +261,7 @@ fn a_drift_of_the_offset_before_a_search_does_not_excuse_a_step_after_it() {
             frequency: Some(5332.0),
             ..windows(10)
         };
-        let flaws = Flaws {
-            noise: 0.01 * a,
-            ..Flaws::default()
-        };
+        let flaws = Flaws::white(0.01 * a);
         let pairs = stream(wave, flaws, 12_000, seed);
         let mut core = Core::new(settings).unwrap();
         let length = pairs.iter().find_map(|&pair| core.push(pair)).unwrap();

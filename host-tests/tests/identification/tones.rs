@@ -18,10 +18,7 @@ fn two_unrelated_tones_are_no_wave() {
         let mut second = random_wave(seed + 5000, RATE / period / ratio, 0.5);
         second.quadrature_amplitude *= first.main_amplitude / second.main_amplitude;
         second.main_amplitude = first.main_amplitude;
-        let flaws = Flaws {
-            noise: 0.01,
-            ..Flaws::default()
-        };
+        let flaws = Flaws::white(0.01);
         let one = Gyro::new(first, flaws.clone(), RATE, seed).unwrap();
         let two = Gyro::new(second, flaws, RATE, seed + 1).unwrap();
         let mut core = Core::new(windows(10)).unwrap();
@@ -61,10 +58,7 @@ fn beside_a_tone_half_as_large_hardly_any_clean_row_is_wrong() {
                 quadrature_amplitude: size * second.quadrature_amplitude,
                 ..second
             };
-            let flaws = Flaws {
-                noise: 0.005 * first.main_amplitude,
-                ..Flaws::default()
-            };
+            let flaws = Flaws::white(0.005 * first.main_amplitude);
             let mut core = Core::new(windows(10)).unwrap();
             let pairs = stream(first, flaws, (60.0 * period) as usize, seed);
             for (k, [c, d]) in pairs.into_iter().enumerate() {
@@ -96,10 +90,7 @@ fn a_spur_does_not_hide_the_wave() {
             let ratio = 0.2 * 25f64.powf((seed as f64 * 0.754_878).fract());
             let advance = std::f64::consts::TAU * ratio / period;
             let size = share * wave.main_amplitude;
-            let flaws = Flaws {
-                noise: 0.002 * wave.main_amplitude,
-                ..Flaws::default()
-            };
+            let flaws = Flaws::white(0.002 * wave.main_amplitude);
             let mut detector = DifferenceDetector::<f32>::new();
             let gyro = Gyro::new(wave, flaws, RATE, seed).unwrap();
             let pairs = (0..).zip(gyro.take((20.0 * period) as usize));
@@ -136,10 +127,7 @@ fn beside(ratios: [f64; 2], settings: impl Fn(u16) -> Settings, periods: [u16; 2
         let ratio = ratios[0] + (ratios[1] - ratios[0]) * part(0.754_878);
         let wave = random_wave(seed, RATE / period, 0.5);
         let a = wave.main_amplitude;
-        let flaws = Flaws {
-            noise: 2e-4 * a,
-            ..Flaws::default()
-        };
+        let flaws = Flaws::white(2e-4 * a);
         let count =
             periods[0] + (f64::from(periods[1] - periods[0]) * part(0.569_84)).round() as u16;
         let samples = (period * f64::from(count) * 15.0) as usize;

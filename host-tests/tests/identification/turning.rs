@@ -16,10 +16,7 @@ fn turning(seed: u64, frequency: f64, share: f64, rate: f64) -> Wave {
 }
 
 fn noisy(wave: &Wave, noise: f64) -> Flaws {
-    Flaws {
-        noise: noise * wave.main_amplitude,
-        ..Flaws::default()
-    }
+    Flaws::white(noise * wave.main_amplitude)
 }
 
 #[test]

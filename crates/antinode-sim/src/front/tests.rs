@@ -26,14 +26,7 @@ fn hum_is_added_to_both() {
 fn noise_has_its_rms_and_is_independent_in_the_channels() {
     let wave = Wave::default();
     let clean = first(wave, Flaws::default(), 200_000);
-    let noisy = first(
-        wave,
-        Flaws {
-            noise: 0.25,
-            ..Flaws::default()
-        },
-        200_000,
-    );
+    let noisy = first(wave, Flaws::white(0.25), 200_000);
     let (mut cc, mut dd, mut cd) = (0.0, 0.0, 0.0);
     for (a, b) in clean.iter().zip(&noisy) {
         let (c, d) = (b[0] - a[0], b[1] - a[1]);
@@ -104,15 +97,7 @@ fn jitter_leaves_the_noise_as_it_was() {
         1e5,
         3,
     );
-    let mut without = Front::new(
-        wave,
-        &Flaws {
-            noise: 0.1,
-            ..Flaws::default()
-        },
-        1e5,
-        3,
-    );
+    let mut without = Front::new(wave, &Flaws::white(0.1), 1e5, 3);
     for k in 0..100 {
         assert_eq!(with.at(k).floor, without.at(k).floor);
     }

@@ -11,10 +11,7 @@ fn gyro(flaws: Flaws) -> Gyro {
 }
 
 fn noisy() -> Flaws {
-    Flaws {
-        noise: 0.1,
-        ..Flaws::default()
-    }
+    Flaws::white(0.1)
 }
 
 fn lost(losses: &[(u64, u64)]) -> Vec<Loss> {

@@ -65,10 +65,7 @@ fn moving() -> Wave {
 
 #[test]
 fn golden_values() {
-    let noise = Flaws {
-        noise: 0.1,
-        ..Flaws::default()
-    };
+    let noise = Flaws::white(0.1);
     let values: Vec<_> = Gyro::new(Wave::default(), noise, 100_000.0, 2021)
         .expect("a good gyro")
         .take(3)

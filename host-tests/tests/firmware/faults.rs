@@ -3,23 +3,16 @@
 use std::fs;
 
 use antinode::{Estimate, Packed};
-use antinode_telemetry::{Cause, Command, Counters, Report, State};
+use antinode_telemetry::{Cause, Command, Report, State};
 use firmware::settings::QUEUE;
 
 use crate::emulator::Device;
 use crate::image::output;
-use crate::told::estimates;
+use crate::told::{estimates, last_counters};
 use crate::{mirror, recordings};
 
 fn steady(pairs: usize) -> Vec<Packed> {
     recordings::codes(recordings::WAVE, recordings::quiet(), pairs)
-}
-
-fn counters(reports: &[Report]) -> Counters {
-    match reports.last() {
-        Some(Report::Counters(counters)) => *counters,
-        other => panic!("the counters come last, not {other:?}"),
-    }
 }
 
 /// Asserts that every window without a flag is right.
@@ -71,7 +64,7 @@ fn garbage_on_the_line_is_counted_and_does_no_harm() {
         .filter(|r| matches!(r, Report::Acknowledgement(a) if a.result.is_ok()));
     // The recording may end before the last of them.
     assert!(answered.count() >= 1);
-    assert!(counters(&reports).commands_damaged >= 16);
+    assert!(last_counters(&reports).commands_damaged >= 16);
 }
 
 #[test]
@@ -79,7 +72,7 @@ fn garbage_on_the_line_is_counted_and_does_no_harm() {
 fn a_reader_that_stops_costs_reports_but_no_samples() {
     let recording = steady(100_000);
     let (reports, lost, _) = Device::start("replay", &recording, "shut=200:500").finish();
-    let counters = counters(&reports);
+    let counters = last_counters(&reports);
     assert_eq!(counters.pairs, 100_000);
     assert_eq!(counters.blocks_dropped, 0);
     assert_eq!(u64::from(counters.reports_dropped), lost);
@@ -118,7 +111,7 @@ fn a_main_loop_that_is_too_slow_drops_counted_blocks() {
     device.command(1, Command::SetWindow { periods: 22 });
     let (reports, lost, _) = device.finish();
     assert_eq!(lost, 0);
-    let last = counters(&reports);
+    let last = last_counters(&reports);
     // 88 halves are 296 blocks, of which the queue holds 127.
     assert!(last.blocks_dropped > 2_500, "{last:?}");
     assert_eq!(last.pairs, 300_000);
@@ -139,7 +132,7 @@ fn lost_pairs_cost_only_the_windows_around_them() {
     let recording = steady(100_000);
     let (reports, lost, _) = Device::start("replay", &recording, "lapse=300:777").finish();
     assert_eq!(lost, 0);
-    let counters = counters(&reports);
+    let counters = last_counters(&reports);
     assert_eq!(
         (counters.pairs_lost, counters.overruns, counters.restarts),
         (777, 1, 1)

@@ -1,38 +1,23 @@
 //! The flaws of the electronics against their first-order formulas: what an exact least-squares fit finds too much of.
 
 use antinode_sim::{Flaws, Gyro, Wave};
+use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::{PI, TAU};
 
 const RATE: f64 = 100_000.0;
 const SAMPLES: usize = 1_000;
 
-/// The least-squares phasor z of S = Re(z exp(j 2 pi f t)) + offset: three normal equations, by Cramer's rule.
+/// The least-squares phasor z of S = Re(z exp(j 2 pi f t)) + offset, by its normal equations.
 fn phasor(samples: &[f64], frequency: f64) -> (f64, f64) {
-    let mut m = [[0.0; 3]; 3];
-    let mut v = [0.0; 3];
+    let (mut m, mut v) = (Matrix3::zeros(), Vector3::zeros());
     for (k, s) in samples.iter().enumerate() {
         let phase = TAU * frequency * k as f64 / RATE;
-        let base = [phase.cos(), -phase.sin(), 1.0];
-        for i in 0..3 {
-            v[i] += s * base[i];
-            for j in 0..3 {
-                m[i][j] += base[i] * base[j];
-            }
-        }
+        let base = Vector3::new(phase.cos(), -phase.sin(), 1.0);
+        m += base * base.transpose();
+        v += *s * base;
     }
-    let det = |m: &[[f64; 3]; 3]| {
-        m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1])
-            - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0])
-            + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0])
-    };
-    let solve = |column: usize| {
-        let mut replaced = m;
-        for (row, value) in replaced.iter_mut().zip(v) {
-            row[column] = value;
-        }
-        det(&replaced) / det(&m)
-    };
-    (solve(0), solve(1))
+    let z = m.lu().solve(&v).expect("many samples");
+    (z.x, z.y)
 }
 
 struct Found {

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::common::{RATE, WAVE, no_rows as fault, npy, raw, rows, run, wav};
+use crate::common::{RATE, WAVE, done, no_rows as fault, npy, raw, rows, run, wav};
 
 #[test]
 fn an_impossible_rate_is_reported() {
@@ -129,8 +129,7 @@ fn options_that_make_no_sense_are_refused() {
 fn shells_complete_every_command() {
     let directory = tempfile::tempdir().unwrap();
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
-        let made = run(directory.path(), &format!("completions {shell}"));
-        assert_eq!(made.code, 0, "{}", made.err);
+        let made = done(directory.path(), &format!("completions {shell}"));
         for word in ["identify", "resonator", "pick-off-angle"] {
             assert!(made.out.contains(word), "{shell}: no {word}");
         }

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::common::ring_downs::damped;
-use crate::common::{Row, Run, rms, rows, run, run_with};
+use crate::common::{Row, Run, done, rms, rows, run, run_with};
 
 const FLAWS: &str =
     "--gain-ratio 1.012 --skew-ns 130 --pick-off-angle 0.008 --noise 0.003 --decay-rate 0.05";
@@ -15,8 +15,7 @@ fn record(here: &Path) {
         "-o one.wav --angle-rate 0.7 --seed 1",
         "-o other.wav --angle-rate -0.6 --angle 1.1 --seed 2",
     ] {
-        let run = run(here, &format!("simulate {turning} --seconds 3 {FLAWS}"));
-        assert_eq!(run.code, 0, "{}", run.err);
+        done(here, &format!("simulate {turning} --seconds 3 {FLAWS}"));
     }
 }
 
@@ -33,21 +32,19 @@ fn calibrate(here: &Path, recordings: &str, options: &str) -> Run {
 /// Records a pattern that turns at this rate, and another that turns the other way.
 fn record_both_ways(here: &Path, simulated: &str, rate: f64) {
     for (name, rate) in [("one", rate), ("other", -rate)] {
-        let made = run(
+        done(
             here,
             &format!("simulate -o {name}.wav --angle-rate {rate} {simulated}"),
         );
-        assert_eq!(made.code, 0, "{}", made.err);
     }
 }
 
 /// Runs `calibrate` on both, identified in these windows.
 fn of_windows(here: &Path, windows: &str, options: &str) -> Run {
-    let rows = run(
+    let rows = done(
         here,
         &format!("identify --output csv one.wav other.wav {windows} {options}"),
     );
-    assert_eq!(rows.code, 0, "{}", rows.err);
     run_with(here, &format!("calibrate - {options}"), rows.out.into())
 }
 
@@ -247,11 +244,10 @@ fn there_is_a_warning_if_no_calibration_explains_the_rows() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     // Amplitudes that a nonlinear amplifier changes with the angle.
-    let made = run(
+    done(
         here,
         &format!("simulate -o bent.wav --angle-rate 0.7 --seconds 3 --cubic -0.1 {FLAWS}"),
     );
-    assert_eq!(made.code, 0);
     let rows = run(here, "identify --output csv bent.wav");
     let bent = run_with(here, "calibrate -", rows.out.replace("clipped", "").into());
     assert!(
@@ -268,8 +264,7 @@ fn there_is_a_warning_if_no_calibration_explains_the_rows() {
 fn rows_that_do_not_allow_a_calibration_are_reported() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    let still = run(here, "simulate -o still.wav --angle-rate 0.1 --noise 0.003");
-    assert_eq!(still.code, 0);
+    done(here, "simulate -o still.wav --angle-rate 0.1 --noise 0.003");
     let still = calibrate(here, "still.wav", "");
     assert_eq!((still.code, still.out.as_str()), (1, ""));
     assert!(

@@ -4,12 +4,11 @@ use std::f64::consts::TAU;
 use std::fs;
 use std::path::Path;
 
-use crate::common::{RATE, Row, WAVE, Wave, npy, rms, rows, run, run_with, silence};
+use crate::common::{RATE, Row, WAVE, Wave, done, npy, rms, rows, run, run_with, silence};
 
 /// The rows of a simulated recording.
 fn identified(here: &Path, name: &str, simulate: &str, identify: &str) -> Vec<Row> {
-    let made = run(here, &format!("simulate -o {name} {simulate}"));
-    assert_eq!(made.code, 0, "{}", made.err);
+    done(here, &format!("simulate -o {name} {simulate}"));
     rows(here, &format!("{name} {identify}"))
 }
 
@@ -105,11 +104,10 @@ fn rails_given_as_codes_are_warned_of_with_their_scaled_values() {
     let bytes: Vec<u8> = bytes.flat_map(u16::to_le_bytes).collect();
     fs::write(here.join("codes.raw"), bytes).unwrap();
     let identify = |rails: &str| {
-        let found = run(
+        let found = done(
             here,
             &format!("identify --output csv --raw u16 --rate 1e5 --full-scale {rails} codes.raw"),
         );
-        assert_eq!(found.code, 0, "{}", found.err);
         let rows = Row::all(&found.out);
         let clipped = rows
             .iter()
@@ -168,9 +166,8 @@ fn a_step_coarser_than_the_noise_is_named_if_rows_scatter() {
     for (noise, is_told) in [("0", true), ("0.004", false)] {
         let simulate =
             format!("simulate -o a.wav --seconds 4 --bits 9 --frequency 5321.7 --noise {noise}");
-        assert_eq!(run(here, &simulate).code, 0);
-        let found = run(here, "identify --output csv a.wav");
-        assert_eq!(found.code, 0, "{}", found.err);
+        done(here, &simulate);
+        let found = done(here, "identify --output csv a.wav");
         assert_eq!(found.err.contains(step), is_told, "{noise}: {}", found.err);
         assert_eq!(found.err.is_empty(), !is_told, "{noise}: {}", found.err);
     }
@@ -279,10 +276,9 @@ fn a_step_that_shows_only_at_the_end_is_warned_of() {
     let here = directory.path();
     // Six codes with two unused bits: too few to show the step at once.
     let simulate = "simulate -o a.wav --seconds 1 --bits 14 --rate 21328";
-    assert_eq!(run(here, simulate).code, 0);
+    done(here, simulate);
     let raw = fs::read(here.join("a.wav")).unwrap()[44..].to_vec();
-    let silent = run(here, "identify --frequency 5332 a.wav");
-    assert_eq!(silent.code, 0, "{}", silent.err);
+    let silent = done(here, "identify --frequency 5332 a.wav");
     for option in [
         "give --resolution 0.00012207031\n",
         "warning: a.wav: all samples are multiples of 0.00012207031, ",
@@ -313,7 +309,7 @@ fn a_step_that_shows_only_at_the_end_is_warned_of() {
     assert!(piped.err.starts_with(start), "{}", piped.err);
     // Noise of several steps makes the rounding random: no warning.
     let noisy = format!("{simulate} --noise 0.0005");
-    assert_eq!(run(here, &noisy).code, 0);
+    done(here, &noisy);
     let raw = fs::read(here.join("a.wav")).unwrap()[44..].to_vec();
     let piped = run_with(
         here,
@@ -328,7 +324,7 @@ fn a_few_values_of_text_without_a_known_step_are_warned_of() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let simulate = "simulate -o a.csv --seconds 0.2 --bits 12 --rate 26660";
-    assert_eq!(run(here, simulate).code, 0);
+    done(here, simulate);
     let told = run(here, "identify --frequency 5332 a.csv");
     let start = "warning: a.csv: the first samples have only 10 distinct values: ";
     assert!(

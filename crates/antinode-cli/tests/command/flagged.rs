@@ -8,9 +8,9 @@ use std::{
     process::{Child, ChildStdin, ChildStdout, Command, Stdio},
 };
 
-#[cfg(unix)]
-use crate::common::send;
 use crate::common::{RATE, Row, WAVE, beside_flagged, identified, run, run_with, wav};
+#[cfg(unix)]
+use crate::common::{done, send};
 
 /// A wave with a gap in it.
 fn torn() -> Vec<u8> {
@@ -25,8 +25,7 @@ fn flagged_rows_are_reported_in_every_format() {
     let here = directory.path();
     fs::write(here.join("torn.wav"), torn()).unwrap();
     fs::write(here.join("good.wav"), wav(&WAVE.codes(20_000))).unwrap();
-    let csv = run(here, "identify --output csv torn.wav good.wav");
-    assert_eq!(csv.code, 0);
+    let csv = done(here, "identify --output csv torn.wav good.wav");
     assert_eq!(beside_flagged(&Row::all(&csv.out), &csv.err), [""; 0]);
     assert!(csv.err.starts_with("warning: torn.wav: "), "{}", csv.err);
     for arguments in ["--output table", "--output jsonl", "--methods all"] {
@@ -73,10 +72,7 @@ fn longer_windows_show_a_pattern_that_noise_makes_a_circle() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let wave = "--main-amplitude 0.4 --quadrature-amplitude -0.37 --noise 0.1";
-    assert_eq!(
-        run(here, &format!("simulate -o a.wav --seconds 2 {wave}")).code,
-        0
-    );
+    done(here, &format!("simulate -o a.wav --seconds 2 {wave}"));
     let (told, rows, flagged) = identified(here, "--periods 20");
     assert!(10 * flagged > 9 * rows.len(), "{flagged}");
     assert!(told.err.contains("give a larger --periods"), "{}", told.err);

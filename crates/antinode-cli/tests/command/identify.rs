@@ -3,7 +3,9 @@
 use std::f64::consts::TAU;
 use std::fs;
 
-use crate::common::{RATE, README, Row, WAVE, names, npy, raw, rows, run, run_with, text, wav};
+use crate::common::{
+    RATE, README, Row, WAVE, done, names, npy, raw, rows, run, run_with, text, wav,
+};
 
 /// The header that the rows must begin with.
 const COLUMNS: &str = "time_s,samples,main_amplitude,quadrature_amplitude,angle_rad,phase_rad,\
@@ -266,7 +268,7 @@ fn a_low_frequency_has_all_its_digits() {
     let slow = format!(
         "simulate -o a.csv --rate 1 --seconds 400000 --frequency {frequency} --noise 1e-4 --sample f32"
     );
-    assert_eq!(run(here, &slow).code, 0);
+    done(here, &slow);
     let made = run(here, "identify a.csv --rate 1 --periods 1000 --output csv");
     let rows = Row::all(&made.out);
     assert!(rows.len() >= 4, "{}", made.err);
@@ -286,11 +288,10 @@ fn hum_is_named_and_removed() {
         *pair = pair.map(|code| code + (327.0 * phase.sin()) as i16);
     }
     fs::write(directory.path().join("hum.wav"), wav(&codes)).unwrap();
-    let plain = run(
+    let plain = done(
         directory.path(),
         "identify --periods 50 --output csv hum.wav",
     );
-    assert_eq!(plain.code, 0);
     let told = plain.err;
     assert!(
         told.contains("hum.wav") && told.contains("misfit") && told.contains("--hum"),
@@ -345,6 +346,6 @@ fn rows_go_to_a_file_in_the_format_of_its_name() {
         "{}",
         over.err
     );
-    assert_eq!(run(here, "identify a.wav").code, 0);
+    done(here, "identify a.wav");
     assert_eq!(names(here), ["a.wav", "rows.csv", "short.wav"]);
 }

@@ -1,6 +1,6 @@
 //! `antinode identify` on samples that are not what they are taken for: rows would look plausible.
 
-use crate::common::{RATE, WAVE, Wave, fault, npy, raw, run, run_with, text, wav};
+use crate::common::{RATE, WAVE, Wave, done, fault, npy, raw, run, run_with, text, wav};
 
 #[test]
 fn one_pick_off_stored_after_the_other_is_reported() {
@@ -41,8 +41,7 @@ fn one_signal_on_both_pick_offs_is_reported() {
     ] {
         for (name, bytes) in [("a.wav", wav(&codes)), ("a.csv", text(&codes).into_bytes())] {
             std::fs::write(here.join(name), bytes).unwrap();
-            let run = run(here, &format!("identify --output csv {name}"));
-            assert_eq!(run.code, 0, "{}", run.err);
+            let run = done(here, &format!("identify --output csv {name}"));
             let Some(told) = told else {
                 assert_eq!(run.err, "");
                 continue;

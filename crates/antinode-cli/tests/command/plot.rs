@@ -5,17 +5,15 @@ use std::fs;
 use std::path::Path;
 
 use crate::common::svg::{FIRST, HEADER, SECOND, Svg, TITLES, drawn};
-use crate::common::{Row, beside_flagged, names, run, run_with};
+use crate::common::{Row, beside_flagged, done, names, run, run_with};
 
 /// Rows of a ring-down that precesses and is interrupted twice.
 fn ring_down(here: &Path) -> String {
-    let made = run(
+    done(
         here,
         "simulate -o ring.wav --seconds 3 --noise 0.002 --decay-rate 0.5 --angle-rate 0.4 --dropout 0.5:0.6:zero --dropout 2:2.3:zero",
     );
-    assert_eq!(made.code, 0, "{}", made.err);
-    let rows = run(here, "identify --output csv --periods 50 ring.wav");
-    assert_eq!(rows.code, 0);
+    let rows = done(here, "identify --output csv --periods 50 ring.wav");
     assert_eq!(beside_flagged(&Row::all(&rows.out), &rows.err), [""; 0]);
     rows.out
 }

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::common::{WAVE, rows, run, run_with, wav};
+use crate::common::{WAVE, done, rows, run, run_with, wav};
 
 /// The lines, none wider than a terminal has room for and none that ends in spaces.
 fn lines(text: &str, width: usize) -> Vec<&str> {
@@ -107,8 +107,7 @@ fn a_table_shows_the_numbers_of_the_rows_with_angles_in_degrees() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let wave = "--noise 0.005 --angle-rate 2 --decay-rate 3";
-    let made = run(here, &format!("simulate -o a.wav --seconds 0.1 {wave}"));
-    assert_eq!(made.code, 0);
+    done(here, &format!("simulate -o a.wav --seconds 0.1 {wave}"));
     let rows = rows(here, "a.wav");
     let run = run(here, "identify a.wav");
     let table = lines(&run.out, 120);

@@ -3,7 +3,7 @@
 use std::fs;
 
 use crate::common::ring_downs::{joined, of_resonator, of_run, rows};
-use crate::common::{rms, run, run_with};
+use crate::common::{done, rms, run, run_with};
 
 #[test]
 fn the_mean_frequency_of_a_ring_down_that_ends_in_noise_is_found_to_its_deviation() {
@@ -85,8 +85,7 @@ fn a_frequency_that_moves_is_reported() {
             ),
             "--periods 50",
         );
-        let found = run(here, "resonator rows.csv --output csv");
-        assert_eq!(found.code, 0);
+        let found = done(here, "resonator rows.csv --output csv");
         for part in ["the frequency varies by", "the sample clock drifts"] {
             assert_eq!(found.err.contains(part), is_told, "{rate}: {}", found.err);
         }

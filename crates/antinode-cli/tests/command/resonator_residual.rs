@@ -1,7 +1,7 @@
 //! `antinode resonator`: its warnings if rows differ from the motion by more than their noise, or by less.
 
+use crate::common::done;
 use crate::common::ring_downs::{four_seconds, resonator, rows};
-use crate::common::run;
 
 #[test]
 fn rows_that_differ_by_less_than_their_noise_are_reported() {
@@ -20,8 +20,7 @@ fn rows_that_differ_by_less_than_their_noise_are_reported() {
                 "--seconds 4 --frequency 5321.7 --decay-rate 0.1 --angle-rate 0.4 --noise {noise} {bits} --seed {seed}"
             );
             rows(here, &simulated, "--periods 50");
-            let found = run(here, "resonator rows.csv");
-            assert_eq!(found.code, 0);
+            let found = done(here, "resonator rows.csv");
             assert_eq!(
                 found.err.contains(told),
                 is_told,

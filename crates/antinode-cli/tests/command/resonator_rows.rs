@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::common::ring_downs::{joined, of_resonator, of_run, rows};
-use crate::common::{rms, run, run_with};
+use crate::common::{done, rms, run, run_with};
 
 #[test]
 fn overlapping_rows_do_not_make_deviations_smaller() {
@@ -103,11 +103,10 @@ fn an_outlier_is_left_out_or_refused_and_rows_given_twice_are_refused() {
 
 /// Samples of a simulated ring-down of 3 s, as `--raw i16` takes them.
 fn samples(here: &Path, simulated: &str) -> Vec<u8> {
-    let made = run(
+    done(
         here,
         &format!("simulate -o it.wav --seconds 3 --noise 0.002 --decay-rate 0.1 {simulated}"),
     );
-    assert_eq!(made.code, 0, "{}", made.err);
     // After the header.
     fs::read(here.join("it.wav")).unwrap().split_off(44)
 }
@@ -161,8 +160,7 @@ fn missing_samples_do_not_falsify_the_rates() {
         "--seconds 6 --noise 0.002 --decay-rate 0.1 --angle-rate 0.4 --lost 200000:3007 --lost 400000:3007",
         "--periods 50",
     );
-    let found = run(here, "resonator rows.csv --output csv");
-    assert_eq!(found.code, 0, "{}", found.err);
+    let found = done(here, "resonator rows.csv --output csv");
     for run in ["1", "2", "3"] {
         let (value, std) = of_run(&found.out, run, "rotation_rad_s");
         assert!(
@@ -206,8 +204,7 @@ fn rows_that_overlap_by_a_block_are_not_taken_for_a_change() {
         "--seconds 8 --rate 40000 --noise 0.002 --decay-rate 0.1 --frequency 5340",
         "--periods 10 --hum --hop 10",
     );
-    let found = run(here, "resonator rows.csv");
-    assert_eq!(found.code, 0);
+    let found = done(here, "resonator rows.csv");
     assert!(!found.err.contains("warning"), "{}", found.err);
 }
 

@@ -7,7 +7,7 @@ use std::path::Path;
 use crate::common::ring_downs::{
     four_seconds, identified, is_one_way, numbers, of_run, record, resonator,
 };
-use crate::common::{WAVE, rms, run, wav};
+use crate::common::{WAVE, done, rms, wav};
 
 #[test]
 fn three_angles_determine_a_split_of_frequency() {
@@ -122,16 +122,14 @@ fn windows_in_which_the_pattern_turns_far_give_the_same_result() {
     let here = directory.path();
     let mut all = Vec::new();
     for seed in 1..=4 {
-        let made = run(
+        done(
             here,
             &format!(
                 "simulate -o it.wav --sample f32 --seconds 20 --noise 2e-4 --seed {seed} --angle-rate 1.5 {SPLIT}"
             ),
         );
-        assert_eq!(made.code, 0, "{}", made.err);
         // 8° in each: the average over a window shows 1 % less of the splits.
-        let rows = run(here, "identify --periods 500 --output csv it.wav");
-        assert_eq!(rows.code, 0, "{}", rows.err);
+        let rows = done(here, "identify --periods 500 --output csv it.wav");
         all.extend(errors(here, &rows.out, 1, 1.5));
     }
     assert!(all.iter().all(|error| error.abs() < 4.0), "{all:.1?}");

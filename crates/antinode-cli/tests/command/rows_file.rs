@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{Row, WAVE, run, wav};
+use crate::common::{Row, WAVE, done, run, wav};
 
 /// Writes a recording `a.wav`, and one of silence, `none.wav`.
 fn recordings(here: &Path) {
@@ -47,7 +47,7 @@ fn the_extension_of_the_name_sets_the_format() {
         ("rows.TXT", "   time, s"),
         ("rows", "   time, s"),
     ] {
-        assert_eq!(run(here, &format!("identify a.wav -o {name}")).code, 0);
+        done(here, &format!("identify a.wav -o {name}"));
         assert!(read(here, name).starts_with(start), "{name}");
     }
     let unknown = run(here, "identify a.wav -o rows.tsv");
@@ -59,8 +59,7 @@ fn the_extension_of_the_name_sets_the_format() {
         )
     );
     assert!(!here.join("rows.tsv").exists());
-    let given = run(here, "identify a.wav -o rows.tsv --output csv");
-    assert_eq!(given.code, 0);
+    done(here, "identify a.wav -o rows.tsv --output csv");
     assert!(read(here, "rows.tsv").starts_with("time_s,"));
 }
 
@@ -104,7 +103,7 @@ mod windows {
             assert_eq!(read(here, "rows.csv"), "good");
         }
         assert_eq!(fs::read_dir(here).unwrap().count(), 3);
-        assert_eq!(run(here, "identify a.wav -o rows.csv").code, 0);
+        done(here, "identify a.wav -o rows.csv");
     }
 
     #[test]
@@ -201,7 +200,7 @@ mod unix {
         assert!(kept.err.contains(told), "{}", kept.err);
         assert_eq!(read(here, "rows.csv"), "good");
         allow(0o600);
-        assert_eq!(run(here, "identify a.wav -o rows.csv").code, 0);
+        done(here, "identify a.wav -o rows.csv");
         let mode = fs::metadata(&path).unwrap().permissions().mode();
         assert_eq!(mode & 0o777, 0o600);
     }

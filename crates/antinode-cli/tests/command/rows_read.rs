@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::common::ring_downs::rows;
-use crate::common::{run, run_with};
+use crate::common::{done, run, run_with};
 
 /// Standard output and standard error of `resonator`, which may leave out none of these rows.
 fn resonator(here: &Path, rows: impl Into<Vec<u8>>) -> (String, String) {
@@ -111,21 +111,19 @@ fn json_lines_are_read_as_csv_is() {
         let made = format!(
             "simulate -o {name}.wav --seconds 3 --noise 0.002 --decay-rate 0.3 --angle-rate {rate} --dropout 1:1.1:noise"
         );
-        assert_eq!(run(here, &made).code, 0);
+        done(here, &made);
     }
     for name in ["rows.csv", "rows.jsonl"] {
-        let made = run(
+        done(
             here,
             &format!("identify a.wav b.wav --periods 50 -o {name}"),
         );
-        assert_eq!(made.code, 0, "{}", made.err);
     }
     let lines = fs::read_to_string(here.join("rows.jsonl")).unwrap();
     assert!(lines.contains("lost"));
     for command in ["resonator", "calibrate", "plot -o it.svg"] {
         let [csv, json] = ["rows.csv", "rows.jsonl"].map(|rows| {
-            let run = run(here, &format!("{command} {rows}"));
-            assert_eq!(run.code, 0, "{}", run.err);
+            let run = done(here, &format!("{command} {rows}"));
             let told = [run.out, run.err].map(|text| text.replace(rows, "ROWS"));
             (told, fs::read_to_string(here.join("it.svg")).ok())
         });
@@ -226,7 +224,7 @@ fn rows_of_several_recordings_may_be_sorted_by_time() {
         let made = format!(
             "simulate -o {name}.wav --seconds 3 --noise 0.002 --decay-rate 0.3 --angle-rate {rate}"
         );
-        assert_eq!(run(here, &made).code, 0);
+        done(here, &made);
     }
     let text = run(here, "identify a.wav b.wav --periods 50 --output csv").out;
     let (header, lines) = text.split_once('\n').unwrap();

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::fs;
 use std::path::Path;
 
-use crate::common::{RATE, Row, WAVE, Wave, no_rows, rows, run, silence, wav};
+use crate::common::{RATE, Row, WAVE, Wave, done, no_rows, rows, run, silence, wav};
 
 /// A 16-bit WAV file of tones, each given by frequency and amplitude.
 fn tones(path: &Path, tones: &[(f64, f64)]) {
@@ -276,8 +276,7 @@ fn constant_samples_are_reported() {
         .map(|k| [(9000.0 * (0.335 * f64::from(k)).sin()) as i16, 9])
         .collect();
     fs::write(here.join("one.wav"), wav(&codes)).unwrap();
-    let found = run(here, "identify one.wav");
-    assert_eq!(found.code, 0, "{}", found.err);
+    let found = done(here, "identify one.wav");
     let dead = "warning: one.wav: S_D is constant at 0.00027";
     assert!(found.err.contains(dead), "{}", found.err);
     // Noise on one pick-off, and the other dead.

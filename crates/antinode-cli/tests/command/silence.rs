@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{Row, WAVE, beside_flagged, run, silence, wav};
+use crate::common::{Row, WAVE, beside_flagged, done, silence, wav};
 
 /// A recording of a wave that rings in these pairs alone; the others hold a little noise.
 fn ringing(pairs: usize, rings: impl Fn(usize) -> bool) -> Vec<u8> {
@@ -19,8 +19,7 @@ fn ringing(pairs: usize, rings: impl Fn(usize) -> bool) -> Vec<u8> {
 /// The warnings other than the count of flags, and the time at which the rows with a wave end, s.
 fn told(here: &Path, recording: Vec<u8>, arguments: &str) -> (String, f64) {
     fs::write(here.join("a.wav"), recording).unwrap();
-    let run = run(here, &format!("identify --output csv a.wav {arguments}"));
-    assert_eq!(run.code, 0, "{}", run.err);
+    let run = done(here, &format!("identify --output csv a.wav {arguments}"));
     let rows = Row::all(&run.out);
     let last = rows
         .iter()

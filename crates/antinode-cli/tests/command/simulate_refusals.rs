@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::common::{names, run};
+use crate::common::{done, names, run};
 
 #[test]
 fn options_that_make_no_sense_are_refused() {
@@ -229,6 +229,6 @@ fn a_recording_that_was_not_simulated_is_not_overwritten() {
     );
     assert_eq!(fs::read(here.join("a.wav")).unwrap(), b"recorded");
     for _ in 0..2 {
-        assert_eq!(run(here, "simulate -o b.wav --seconds 0.1").code, 0);
+        done(here, "simulate -o b.wav --seconds 0.1");
     }
 }

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{RATE, Row, WAVE, rows, rows_of, run, same_later, text};
+use crate::common::{RATE, Row, WAVE, done, rows, rows_of, run, same_later, text};
 
 /// The pairs of [`WAVE`], each with its time as `print` gives it.
 fn timed(header: &str, pairs: usize, print: impl Fn(f64) -> String) -> String {
@@ -78,8 +78,7 @@ fn a_clock_that_warms_up_is_warned_of_and_costs_no_row() {
         format!("{:.9}", t - 1.5e-6 * t * t)
     });
     fs::write(here.join("a.csv"), text).unwrap();
-    let run = run(here, "identify a.csv --output csv");
-    assert_eq!(run.code, 0, "{}", run.err);
+    let run = done(here, "identify a.csv --output csv");
     let told = "warning: a.csv: the sample rate in the time column drifts slowly from 100000.";
     assert!(
         run.err.starts_with(told) && run.err.lines().count() == 1,
@@ -105,8 +104,7 @@ fn a_rate_that_is_nearly_round_is_warned_of_with_its_option() {
     let here = directory.path();
     let text = timed("time,c,d\n", 600_000, |t| format!("{:.6}", t / 1.000_002));
     fs::write(here.join("a.csv"), text).unwrap();
-    let rough = run(here, "identify a.csv --output csv");
-    assert_eq!(rough.code, 0, "{}", rough.err);
+    let rough = done(here, "identify a.csv --output csv");
     let (_, option) = rough.err.split_once("give --rate ").expect(&rough.err);
     let (rate, _) = option.split_once(' ').unwrap();
     assert_eq!(rate, "100000.2");

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::common::{Row, WAVE, rows, run, text};
+use crate::common::{Row, WAVE, done, rows, run, text};
 
 /// A recording under a header, with its times and signals multiplied by these.
 fn scaled(header: &str, time: f64, scales: [f64; 2]) -> String {
@@ -112,8 +112,7 @@ fn an_unknown_unit_beside_a_known_one_is_warned_of() {
     let here = directory.path();
     let text = scaled("time,c,d\ns,V,MV\n", 1.0, [1.0, 1.0]);
     fs::write(here.join("a.csv"), text).unwrap();
-    let run = run(here, "identify a.csv");
-    assert_eq!(run.code, 0);
+    let run = done(here, "identify a.csv");
     let told = "warning: a.csv: S_C is in V and S_D in MV: one of these units is not known, and both signals are read without conversion";
     assert!(run.err.starts_with(told), "{}", run.err);
 }

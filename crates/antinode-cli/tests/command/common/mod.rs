@@ -31,6 +31,13 @@ pub fn run(directory: &Path, arguments: &str) -> Run {
     run_with(directory, arguments, Vec::new())
 }
 
+/// Runs the command, which must succeed.
+pub fn done(directory: &Path, arguments: &str) -> Run {
+    let run = run(directory, arguments);
+    assert_eq!(run.code, 0, "{arguments}: {}", run.err);
+    run
+}
+
 /// Runs a line of shell in a directory, where `$antinode` is the command.
 #[cfg(unix)]
 pub fn shell(directory: &Path, line: &str) -> Output {

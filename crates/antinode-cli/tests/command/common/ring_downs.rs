@@ -4,14 +4,12 @@ use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
 
-use super::{Run, run, run_with};
+use super::{Run, done, run, run_with};
 
 /// Rows of a simulated ring-down, in a file.
 pub fn rows(here: &Path, simulated: &str, identified: &str) {
-    let made = run(here, &format!("simulate -o it.wav {simulated}"));
-    assert_eq!(made.code, 0, "{}", made.err);
-    let rows = run(here, &format!("identify --output csv {identified} it.wav"));
-    assert_eq!(rows.code, 0, "{}", rows.err);
+    done(here, &format!("simulate -o it.wav {simulated}"));
+    let rows = done(here, &format!("identify --output csv {identified} it.wav"));
     fs::write(here.join("rows.csv"), rows.out).unwrap();
 }
 
@@ -47,8 +45,7 @@ pub fn joined(
 pub fn in_one(here: &Path, simulated: impl IntoIterator<Item = String>) -> Vec<u8> {
     let mut recording = Vec::new();
     for simulated in simulated {
-        let made = run(here, &format!("simulate -o it.wav {simulated}"));
-        assert_eq!(made.code, 0, "{}", made.err);
+        done(here, &format!("simulate -o it.wav {simulated}"));
         // Behind the header.
         recording.extend(fs::read(here.join("it.wav")).unwrap().split_off(44));
     }
@@ -60,11 +57,10 @@ pub fn in_one(here: &Path, simulated: impl IntoIterator<Item = String>) -> Vec<u
 
 /// A recording of 4 s.
 pub fn record(here: &Path, name: &str, wave: &str) {
-    let made = run(
+    done(
         here,
         &format!("simulate -o {name} --seconds 4 --noise 0.002 {wave}"),
     );
-    assert_eq!(made.code, 0, "{}", made.err);
 }
 
 /// Rows of recordings.

@@ -1,17 +1,18 @@
 //! What the core costs on this machine, as ratios to the same four sums with the crate idsp in the same run:
 //! `cargo bench -p antinode-cli`.
 
-use std::fs;
 use std::hint::black_box;
 use std::num::Wrapping;
 use std::path::Path;
 use std::process::{Command, Stdio};
-use std::time::Instant;
+use std::time::SystemTime;
+use std::{env, fs};
 
 use antinode::block::Demodulator;
 use antinode::phase::PhaseStep;
 use antinode::{Front, Identifier, Sample, SamplePair, Settings};
 use antinode_sim::{Flaws, Gyro, Wave};
+use criterion::{BenchmarkGroup, Criterion, Throughput, measurement::WallTime};
 use idsp::{Accu, cossin};
 
 const RATE: f64 = 100_000.0;
@@ -22,45 +23,12 @@ const PAIRS: usize = 1 << 16;
 const SECONDS: usize = 40;
 /// Pairs of a half-buffer.
 const HALF_BUFFER: usize = 128;
+const GROUP: &str = "speed";
+const PEER: &str = "idsp sums";
+const COMMAND: &str = "identify, WAV to CSV";
 
+type Group<'a> = BenchmarkGroup<'a, WallTime>;
 type Code = [i16; 2];
-
-/// Names of what was measured, and nanoseconds a sample pair.
-#[derive(Default)]
-struct Times(Vec<(String, f64)>);
-
-impl Times {
-    /// Measures a kernel on `PAIRS` pairs, and keeps its shortest time.
-    fn add<T>(&mut self, name: impl Into<String>, work: impl FnMut() -> T) {
-        self.add_shortest(name, 500, PAIRS, work);
-    }
-
-    /// Keeps the shortest of so many times of work on so many pairs: whatever else runs here only adds to it.
-    fn add_shortest<T>(
-        &mut self,
-        name: impl Into<String>,
-        runs: usize,
-        pairs: usize,
-        mut work: impl FnMut() -> T,
-    ) {
-        let times = (0..runs).map(|_| {
-            let began = Instant::now();
-            black_box(work());
-            began.elapsed().as_nanos() as f64
-        });
-        let shortest = times.fold(f64::INFINITY, f64::min);
-        self.0.push((name.into(), shortest / pairs as f64));
-    }
-
-    /// Prints all, the shortest first, over that of the peer.
-    fn print(mut self, peer: f64) {
-        self.0.sort_by(|a, b| a.1.total_cmp(&b.1));
-        println!("Time a sample pair over that of idsp's sums, {peer:.2} ns:");
-        for (name, time) in self.0 {
-            println!("{:9.2}  {name}", time / peer);
-        }
-    }
-}
 
 /// Codes of a 12-bit converter.
 fn codes() -> Vec<Code> {
@@ -86,20 +54,24 @@ fn codes() -> Vec<Code> {
 }
 
 /// The sums with idsp: a phase accumulator, `cossin`, and products added in 64 bits.
-fn idsp_sums(codes: &[Code]) -> [i64; 4] {
+fn idsp_sums(group: &mut Group, codes: &[Code]) {
     let step = (FREQUENCY / RATE * 32f64.exp2()) as i32;
-    let mut phase = Accu::new(Wrapping(0), Wrapping(step));
-    let mut sums = [0i64; 4];
-    for (&[c, d], angle) in black_box(codes).iter().zip(&mut phase) {
-        let (cosine, sine) = cossin(angle.0);
-        for (sum, (sample, weight)) in
-            sums.iter_mut()
-                .zip([(c, cosine), (c, sine), (d, cosine), (d, sine)])
-        {
-            *sum += i64::from(sample) * i64::from(weight);
-        }
-    }
-    sums
+    group.bench_function(PEER, |bencher| {
+        bencher.iter(|| {
+            let mut phase = Accu::new(Wrapping(0), Wrapping(step));
+            let mut sums = [0i64; 4];
+            for (&[c, d], angle) in black_box(codes).iter().zip(&mut phase) {
+                let (cosine, sine) = cossin(angle.0);
+                for (sum, (sample, weight)) in
+                    sums.iter_mut()
+                        .zip([(c, cosine), (c, sine), (d, cosine), (d, sine)])
+                {
+                    *sum += i64::from(sample) * i64::from(weight);
+                }
+            }
+            sums
+        });
+    });
 }
 
 fn demodulator<S: Sample>(watch: bool) -> Demodulator<S, 200> {
@@ -108,75 +80,131 @@ fn demodulator<S: Sample>(watch: bool) -> Demodulator<S, 200> {
 }
 
 /// The stages of the core in one arithmetic.
-fn stages<S: Sample>(times: &mut Times, arithmetic: &str, codes: &[Code])
+fn stages<S: Sample>(group: &mut Group, arithmetic: &str, codes: &[Code])
 where
     Code: SamplePair<S>,
 {
     for (name, watch) in [("block", false), ("watch", true)] {
-        let mut demodulator = demodulator::<S>(watch);
-        times.add(format!("{name} {arithmetic}"), || {
-            for half in black_box(codes).chunks(HALF_BUFFER) {
-                let mut pairs = half;
-                while !pairs.is_empty() {
-                    let (taken, block) = demodulator.push_slice(pairs);
-                    black_box(block);
-                    pairs = &pairs[taken..];
+        group.bench_function(format!("{name} {arithmetic}"), |bencher| {
+            let mut demodulator = demodulator::<S>(watch);
+            bencher.iter(|| {
+                for half in black_box(codes).chunks(HALF_BUFFER) {
+                    let mut pairs = half;
+                    while !pairs.is_empty() {
+                        let (taken, block) = demodulator.push_slice(pairs);
+                        black_box(block);
+                        pairs = &pairs[taken..];
+                    }
+                }
+            });
+        });
+    }
+    group.bench_function(format!("push {arithmetic}"), |bencher| {
+        let mut demodulator = demodulator::<S>(false);
+        bencher.iter(|| {
+            for &pair in black_box(codes) {
+                black_box(demodulator.push(pair));
+            }
+        });
+    });
+    group.bench_function(format!("acquire {arithmetic}"), |bencher| {
+        let mut front = Front::<S, 200>::new(Settings::new(RATE)).expect("valid");
+        bencher.iter(|| {
+            for &pair in black_box(codes) {
+                black_box(front.push(pair));
+                if !front.is_searching() {
+                    front.search();
                 }
             }
         });
-    }
-    let mut demodulator = demodulator::<S>(false);
-    times.add(format!("push {arithmetic}"), || {
-        for &pair in black_box(codes) {
-            black_box(demodulator.push(pair));
-        }
     });
-    let mut front = Front::<S, 200>::new(Settings::new(RATE)).expect("valid");
-    times.add(format!("acquire {arithmetic}"), || {
-        for &pair in black_box(codes) {
-            black_box(front.push(pair));
-            if !front.is_searching() {
-                front.search();
+    group.bench_function(format!("pipeline {arithmetic}"), |bencher| {
+        let mut identifier = Identifier::<S, 200, 16>::new(Settings::new(RATE)).expect("valid");
+        bencher.iter(|| {
+            for half in black_box(codes).chunks(HALF_BUFFER) {
+                identifier.extend(half, |estimate| {
+                    black_box(&estimate);
+                });
             }
-        }
-    });
-    let mut identifier = Identifier::<S, 200, 16>::new(Settings::new(RATE)).expect("valid");
-    times.add(format!("pipeline {arithmetic}"), || {
-        for half in black_box(codes).chunks(HALF_BUFFER) {
-            identifier.extend(half, |estimate| {
-                black_box(&estimate);
-            });
-        }
+        });
     });
 }
 
-/// Runs the command as it is installed, in a folder for recordings.
-fn run(folder: &Path, arguments: &str) {
-    let status = Command::new(env!("CARGO_BIN_EXE_antinode"))
-        .current_dir(folder)
-        .args(arguments.split(' '))
+/// The command as it is installed: a 16-bit WAV file in, rows of CSV out.
+fn command(group: &mut Group, folder: &Path) {
+    let recording = folder.join("recording.wav");
+    let antinode = || Command::new(env!("CARGO_BIN_EXE_antinode"));
+    let made = antinode()
+        .args(["simulate", "--noise", "0.002", "--seconds"])
+        .arg(SECONDS.to_string())
+        .arg("-o")
+        .arg(&recording)
         .stdout(Stdio::null())
         .status();
-    assert!(status.expect("it runs").success(), "{arguments}");
+    assert!(made.expect("it runs").success(), "no recording");
+    group.throughput(Throughput::Elements((SECONDS * RATE as usize) as u64));
+    group.sample_size(10).bench_function(COMMAND, |bencher| {
+        bencher.iter(|| {
+            let status = antinode()
+                .args(["identify", "--output", "csv"])
+                .arg(&recording)
+                .stdout(Stdio::null())
+                .status();
+            assert!(status.expect("it runs").success(), "no rows");
+        });
+    });
+}
+
+/// Nanoseconds a sample pair, where this run measured it.
+fn nanoseconds(folder: &Path, began: SystemTime) -> Option<(String, f64)> {
+    let read = |name: &str| {
+        let file = folder.join("new").join(name);
+        let fresh = fs::metadata(&file).ok()?.modified().ok()? >= began;
+        let text = fs::read(file).ok().filter(|_| fresh)?;
+        serde_json::from_slice::<serde_json::Value>(&text).ok()
+    };
+    let (about, estimates) = (read("benchmark.json")?, read("estimates.json")?);
+    let pairs = about["throughput"]["Elements"].as_f64()?;
+    let name = about["function_id"].as_str()?.to_owned();
+    Some((
+        name,
+        estimates["median"]["point_estimate"].as_f64()? / pairs,
+    ))
+}
+
+/// Prints every time over that of the peer.
+fn print_ratios(folder: &Path, began: SystemTime) {
+    let measured: Vec<(String, f64)> = fs::read_dir(folder.join(GROUP))
+        .into_iter()
+        .flatten()
+        .filter_map(|entry| nanoseconds(&entry.ok()?.path(), began))
+        .collect();
+    let Some(&(_, peer)) = measured.iter().find(|(name, _)| name == PEER) else {
+        return;
+    };
+    let mut ratios: Vec<_> = measured.iter().map(|(name, t)| (t / peer, name)).collect();
+    ratios.sort_by(|a, b| a.0.total_cmp(&b.0));
+    println!("\nTime a sample pair over that of idsp's sums, {peer:.2} ns:");
+    for (ratio, name) in ratios {
+        println!("{ratio:9.2}  {name}");
+    }
 }
 
 fn main() {
-    let codes = codes();
-    let mut times = Times::default();
-    times.add("idsp sums", || idsp_sums(&codes));
-    let peer = times.0[0].1;
-    stages::<i16>(&mut times, "fixed", &codes);
-    stages::<f32>(&mut times, "f32", &codes);
+    let began = SystemTime::now();
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("speed");
     fs::create_dir_all(&folder).expect("the target directory can be written");
-    run(
-        &folder,
-        &format!("simulate --noise 0.002 --seconds {SECONDS} -o it.wav"),
-    );
-    // A 16-bit WAV file in, rows of CSV out.
-    let pairs = SECONDS * RATE as usize;
-    times.add_shortest("identify, WAV to CSV", 10, pairs, || {
-        run(&folder, "identify --output csv it.wav");
-    });
-    times.print(peer);
+    let mut criterion = Criterion::default()
+        .output_directory(&folder)
+        .configure_from_args();
+    let codes = codes();
+    let mut group = criterion.benchmark_group(GROUP);
+    group.throughput(Throughput::Elements(PAIRS as u64));
+    idsp_sums(&mut group, &codes);
+    stages::<i16>(&mut group, "fixed", &codes);
+    stages::<f32>(&mut group, "f32", &codes);
+    command(&mut group, &folder);
+    group.finish();
+    criterion.final_summary();
+    print_ratios(&folder, began);
 }

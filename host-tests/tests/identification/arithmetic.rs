@@ -24,7 +24,7 @@ fn each(codes: &[[i32; 2]], settings: Settings) -> [(&'static str, Vec<Estimate>
 #[test]
 fn every_arithmetic_reaches_the_bound_on_codes() {
     for bits in [12, 16] {
-        for (periods, runs) in [(2, 200), (4, 200), (10, 200), (50, 120)] {
+        for (periods, runs) in [(2, 400), (4, 400), (10, 400), (50, 250)] {
             for noise in [0.001, 0.02, 0.2] {
                 let mut scores = [("", Score::default()); 3];
                 for seed in 0..runs {

@@ -43,14 +43,16 @@ pub fn equations(
     let each = run.moments.iter().zip(&ideal);
     let each = each.map(|(moment, &ideal)| {
         let [energy, r, s, q] = shares(ideal);
-        // R/E, S/E and Q/E, and their derivatives by ln g, by the phase of D, and by ε.
-        let of_gain = [r * r - 1.0, r * s, q * r];
-        let of_phase = [0.0, -q, s];
-        let of_angle = [
-            2.0 * s * (1.0 + r) - 2.0 * tangent * of_gain[0],
-            2.0 * (s * s - r - 1.0) - 2.0 * tangent * of_gain[1],
-            2.0 * s * q - 2.0 * tangent * of_gain[2],
+        // R/E, S/E and Q/E, and their derivatives if D grows by a share of its own, by one of C, and by ln g, by the phase of D, and by ε.
+        let of_own = [r * r - 1.0, r * s, q * r];
+        let of_other = [-s * (1.0 + r), 1.0 + r - s * s, -s * q];
+        let of_gain = [0, 1, 2].map(|i| of_own[i] - tangent * of_other[i]);
+        let of_phase = [
+            tangent * q * (1.0 + r),
+            tangent * q * s - q,
+            tangent * (q * q - r - 1.0) + s,
         ];
+        let of_angle = [0, 1, 2].map(|i| -2.0 * (of_other[i] + tangent * of_own[i]));
         let products = |[dr, ds, dq]: [f64; 3]| [dr, ds, q * dr + r * dq, q * ds + s * dq];
         let now = [r, s, q * r, q * s];
         sums.advance(
@@ -67,7 +69,8 @@ pub fn equations(
         // At equal energy the mode of the higher frequency moves less, by the share Δω/2ω.
         let [more_r, more_s] = [r, s].map(|part| 0.5 * part * per_radian(moment.omega) / unit);
         let more = 2.0 * (s - tangent * r);
-        let mut of_energy = [-r, 0.0, -more, to_r, to_s, -more_s, more_r];
+        let (by_gain, by_phase) = (-r - tangent * s, -tangent * q);
+        let mut of_energy = [by_gain, by_phase, -more, to_r, to_s, -more_s, more_r];
         let mut of_quadrature = [
             of_gain[2],
             of_phase[2],
@@ -163,3 +166,6 @@ impl Sums {
         self.last = Some((time, now));
     }
 }
+
+#[cfg(test)]
+mod tests;

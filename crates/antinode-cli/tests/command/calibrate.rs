@@ -1,5 +1,6 @@
 //! `antinode calibrate`: the flaws of simulated pick-offs are found, and the options that it prints remove them.
 
+use std::f64::consts::TAU;
 use std::fs;
 use std::path::Path;
 
@@ -185,6 +186,13 @@ fn a_program_reads_the_same_numbers_with_their_deviations() {
     assert_eq!(lines.next(), Some("quantity,value,std"));
     let lines: Vec<_> = lines.collect();
     assert_eq!([lines.len(), jsonl.out.lines().count()], [3; 2]);
+    // Gain and phase are known about equally well.
+    let of_phase = deviations[1] * 1e-9 * TAU * 5332.0;
+    assert!(
+        (0.7..1.4).contains(&(of_phase / deviations[0])),
+        "{}",
+        csv.out
+    );
     let names = ["gain_ratio", "skew_ns", "pick_off_angle_rad"];
     for (i, (line, json)) in lines.iter().zip(jsonl.out.lines()).enumerate() {
         let fields: Vec<_> = line.split(',').collect();

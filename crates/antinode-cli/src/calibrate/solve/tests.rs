@@ -195,14 +195,22 @@ fn stated_deviations_are_the_rms_errors() {
 #[test]
 fn a_residual_beyond_noise_widens_the_deviations() {
     let honest = run(&ROUND, 0.2, &PickOffs::IDEAL, 1e-3, 1);
-    let mut boastful = honest.clone();
-    for moment in &mut boastful.moments {
-        moment.variance *= 0.01;
-    }
-    let [honest, boastful] = [honest, boastful].map(|run| solve(&[run], PickOffs::IDEAL).unwrap());
+    let [boastful, modest] = [0.01, 4.0].map(|by| {
+        let mut run = honest.clone();
+        for moment in &mut run.moments {
+            moment.variance *= by;
+        }
+        run
+    });
+    let [honest, boastful, modest] =
+        [honest, boastful, modest].map(|run| solve(&[run], PickOffs::IDEAL).unwrap());
     assert!((boastful.residual / honest.residual - 10.0).abs() < 1e-6);
     for (wide, deviation) in boastful.deviations.iter().zip(honest.deviations) {
         assert!((wide / deviation - 1.0).abs() < 0.05, "{boastful:?}");
+    }
+    // One below noise does not make them smaller.
+    for (wide, deviation) in modest.deviations.iter().zip(honest.deviations) {
+        assert!((wide / deviation - 2.0).abs() < 0.1, "{modest:?}");
     }
 }
 
@@ -262,6 +270,41 @@ fn damping_that_changes_falsifies_nothing() {
             assert!(
                 (0.72..1.3).contains(&square.sqrt()),
                 "{change}: {squares:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn variances_are_those_that_noise_on_raw_phasors_causes() {
+    let (step, omega) = (1e-6, 2.0);
+    for (gain_ratio, skew, angle) in [(1.0, 0.0, 0.0), (3.0, 0.1, 0.15), (0.4, -0.2, -0.2)] {
+        let pick_offs = PickOffs {
+            gain_ratio,
+            skew,
+            angle,
+        };
+        let ideal = [Complex::new(0.6, -0.1), Complex::new(-0.4, 0.3)];
+        let raw = pick_offs.distort(ideal, omega);
+        let mut squares = [0.0; 2];
+        for (part, by) in [0, 1]
+            .into_iter()
+            .flat_map(|part| [(part, Complex::ONE), (part, Complex::I)])
+        {
+            let [less, more] = [-step, step].map(|step| {
+                let mut raw = raw;
+                raw[part] += by * step;
+                let [energy, _, _, q] = shares(pick_offs.correct(raw, omega));
+                [energy.ln(), q]
+            });
+            for (square, (less, more)) in squares.iter_mut().zip(less.into_iter().zip(more)) {
+                *square += ((more - less) / (2.0 * step)).powi(2);
+            }
+        }
+        for (variance, square) in variances(ideal, &pick_offs).into_iter().zip(squares) {
+            assert!(
+                (variance / square - 1.0).abs() < 1e-6,
+                "{gain_ratio}: {variance} {square}"
             );
         }
     }

@@ -42,7 +42,7 @@ pub(super) struct Remarks {
     row_scatter: RowScatter,
     sampled_in_turn: SampledInTurn,
     silence: Silence,
-    rows: u64,
+    has_rows: bool,
     /// The smallest residual of the rows with a wave, and the frequency of the last one, Hz.
     residual: f32,
     frequency: f64,
@@ -65,7 +65,7 @@ impl Remarks {
             row_scatter: RowScatter::new(settings.resolution),
             sampled_in_turn: SampledInTurn::default(),
             silence: Silence::default(),
-            rows: 0,
+            has_rows: false,
             residual: f32::INFINITY,
             frequency: 0.0,
             has_warned_early: false,
@@ -89,7 +89,7 @@ impl Remarks {
         self.sampled_in_turn.see(row, rate);
         self.pick_off_without_wave.see(row);
         self.cut_off.row(row.flags);
-        self.rows += 1;
+        self.has_rows = true;
         if !row.flags.contains(Flags::LOST) {
             self.residual = self.residual.min(row.residual_rms);
             self.frequency = row.frequency;
@@ -107,7 +107,7 @@ impl Remarks {
     pub fn early_warnings(&mut self, step: Option<f32>) -> impl Iterator<Item = String> {
         self.has_warned_early = true;
         // If there are rows, their flags show a constant pick-off.
-        let constant = self.equal_samples.constant().filter(|_| self.rows == 0);
+        let constant = self.equal_samples.constant().filter(|_| !self.has_rows);
         let early = constant.or_else(|| self.equal_samples.same_twice());
         let step = self.converter_step.warning(step, self.residual);
         early.into_iter().chain(step)
@@ -120,15 +120,14 @@ impl Remarks {
         span: &Span,
         seconds: f64,
     ) -> impl Iterator<Item = String> {
-        let has_rows = self.rows > 0;
         let has_option = self.settings.hum || self.settings.coloured;
-        let constant = self.equal_samples.constant().filter(|_| has_rows);
+        let constant = self.equal_samples.constant().filter(|_| self.has_rows);
         let is_same_known = self.has_warned_early || self.equal_samples.are_both_constant();
         [
             span.coarse_time(self.frequency),
             self.silence.warning(seconds, span.offset()),
             self.converter_step.warning(step, self.residual),
-            self.few_values.warning().filter(|_| has_rows),
+            self.few_values.warning().filter(|_| self.has_rows),
             self.cut_off.warning(self.residual),
             self.cause()
                 .or_else(|| self.row_scatter.warning(has_option)),

@@ -13,7 +13,7 @@ use crate::runs::Run;
 /// Share of each unknown's own weight that is added to it, so that unknowns that the rows do not determine stay near 0.
 const RIDGE: f64 = 1e-10;
 
-/// The unknowns of a model from the integrals; `None` if they are not finite.
+/// The unknowns of a model from the integrals; `None` if they are not numbers.
 pub fn start(runs: &[Run], model: Model) -> Option<DVector<f64>> {
     // At first E, R and S take the places of a_A, a_B and θ, and Q follows the run's own; or E and Q take those of a_A and a_B.
     let (shared, own) = (model.shared(), model.own());
@@ -57,8 +57,7 @@ pub fn start(runs: &[Run], model: Model) -> Option<DVector<f64>> {
             values[3] = 0.25 * s.atan2(r);
         }
     }
-    let is_sound = values.iter().all(|value| value.is_finite());
-    is_sound.then_some(values)
+    Some(values)
 }
 
 /// Adds the rows of a run; `begins` lists which of E, R, S and Q are used, by number, and the places of their initial values.

@@ -32,7 +32,7 @@ pub(super) struct MainsRipple {
     spectra: u32,
     /// Spectra in which a line was seen, and the first line, Hz, with its share of the amplitude.
     seen: u32,
-    first: [f64; 2],
+    first: Option<[f64; 2]>,
     /// The wave's frequency, Hz.
     frequency: f64,
 }
@@ -71,9 +71,7 @@ impl MainsRipple {
         };
         self.spectra += 1;
         if let Some(line) = line(&self.rows, &lines) {
-            if self.seen == 0 {
-                self.first = line;
-            }
+            self.first.get_or_insert(line);
             self.seen += 1;
         }
         self.rows.clear();
@@ -84,7 +82,7 @@ impl MainsRipple {
         if self.spectra == 0 && self.rows.len() >= MIN_ROWS {
             self.examine();
         }
-        let [line, share] = self.first;
+        let [line, share] = self.first?;
         let periods = (WINDOW_RIPPLES * self.frequency / line).ceil();
         (2 * self.seen > self.spectra).then(|| {
             format!(

@@ -63,6 +63,12 @@ mod tests {
         let (by, text) = factor(4.2e7);
         assert_eq!(text, " ÷ 10⁶");
         assert!((1e6 * by - 1.0).abs() < 1e-12);
-        assert_eq!(frequency_unit(0.02), ("mHz", 1e3));
+        for (size, unit) in [(20.0, "Hz"), (0.02, "mHz"), (2e-5, "µHz"), (2e-8, "nHz")] {
+            let (name, by) = frequency_unit(size);
+            assert!(
+                name == unit && (size * by - 20.0).abs() < 1e-9,
+                "{name} {by}"
+            );
+        }
     }
 }

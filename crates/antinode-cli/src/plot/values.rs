@@ -144,6 +144,7 @@ mod tests {
         let log = |from: f64, to: f64| texts(Values::logarithmic(&(from.log10()..to.log10())));
         assert_eq!(log(0.0015, 0.9), ["0.01", "0.1"]);
         assert_eq!(log(0.09, 0.6), ["0.1", "0.2", "0.5"]);
+        assert_eq!(log(0.0015, 0.009), ["0.002", "0.005"]);
         assert_eq!(log(9e-8, 1.1e-6), ["1e−7", "2e−7", "5e−7", "1e−6"]);
         assert_eq!(log(9e5, 2e7), ["1e6", "2e6", "5e6", "1e7", "2e7"]);
         // Of many decades, no more marks than there is room for.

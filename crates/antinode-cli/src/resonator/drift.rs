@@ -37,8 +37,8 @@ mod tests {
     use super::*;
     use crate::deviates::Deviates;
 
-    /// The error of the drift over its deviation, for points that scatter by `times` theirs.
-    fn off(seed: u64, times: f64, are_weighted: bool) -> f64 {
+    /// The drift of points that fall by 0.2 mHz/s and scatter by `times` their deviations.
+    fn falling(seed: u64, times: f64, are_weighted: bool) -> Drift {
         let mut random = Deviates(seed);
         let rows: Vec<_> = (0..60)
             .map(|k| {
@@ -53,8 +53,25 @@ mod tests {
                 }
             })
             .collect();
-        let (slope, std) = drift(&rows, are_weighted).slope;
+        drift(&rows, are_weighted)
+    }
+
+    /// The error of the drift over its deviation.
+    fn off(seed: u64, times: f64, are_weighted: bool) -> f64 {
+        let (slope, std) = falling(seed, times, are_weighted).slope;
         (slope + 2e-4) / std
+    }
+
+    #[test]
+    fn the_squares_of_a_drift_are_those_beyond_chance() {
+        let Drift {
+            slope: (slope, std),
+            squares,
+        } = falling(1, 1.0, true);
+        assert!((squares / (slope / std).powi(2) - 1.0).abs() < 0.5 && squares > 100.0);
+        // Of more scatter, or of any without deviations, it may be chance.
+        assert_eq!(falling(1, 30.0, true).squares, 0.0);
+        assert_eq!(falling(1, 1.0, false).squares, 0.0);
     }
 
     #[test]

@@ -112,8 +112,9 @@ fn a_figure_that_cannot_be_written_is_reported_and_harms_nothing() {
     refused(here, "plot -o it.svg", &rows, 2, &["<ROWS>"]);
     refused(
         here,
-        "plot - -o none/it.svg",
-        &rows,
+        // Before any row is read.
+        "plot none.csv -o none/it.svg",
+        "",
         1,
         &["none/it.svg: there is no directory `none`; make it first"],
     );

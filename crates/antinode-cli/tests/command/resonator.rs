@@ -164,7 +164,20 @@ fn faults_of_the_rows_are_reported() {
             .all(|part| bent.contains(part)),
         "{bent}"
     );
+    // It might as well turn the other way.
+    let leaping = lines.iter().enumerate().map(|(index, line)| {
+        let mut fields: Vec<_> = line.split(',').map(str::to_owned).collect();
+        if index > 0 {
+            fields[4] = (0.45 * index as f64).to_string();
+        }
+        fields.join(",")
+    });
+    let leaping: Vec<_> = leaping.collect();
     for (rows, told) in [
+        (
+            leaping.join("\n"),
+            "the pattern turns by less than 22.5° from row to row",
+        ),
         (lines[0].to_owned(), "no run of 12 clean rows"),
         ("a,b\n1,2\n".to_owned(), "no column time_s"),
     ] {

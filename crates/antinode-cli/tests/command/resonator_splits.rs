@@ -156,6 +156,11 @@ fn splits_that_flaws_of_pick_offs_look_like_are_named_if_the_pattern_turns_one_w
             (split_one_way - told).abs() < 0.05 * told + 4.0 * std,
             "{flaw}: {split_one_way} ± {std}: {err}"
         );
+        // With two more at rest flaws do not look like splits.
+        let still = ["0.1", "0.5"]
+            .map(|angle| four_seconds(here, &format!("--decay-rate 0.08 --angle {angle} {flaw}")));
+        let (_, _, err) = split(&(one_way.clone() + &still.concat()));
+        assert!(!err.contains("one way"), "{err}");
         let (split_both_ways, std, err) = split(&(one_way + &other_way));
         assert!(
             split_both_ways < 4.0 * std,

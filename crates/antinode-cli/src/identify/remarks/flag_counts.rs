@@ -156,6 +156,23 @@ mod tests {
     }
 
     #[test]
+    fn options_that_were_given_are_no_remedy() {
+        for (hum, coloured) in [(false, false), (true, false), (false, true), (true, true)] {
+            let mut counts = FlagCounts::new(hum, coloured);
+            (0..4).for_each(|_| counts.see(Flags::MISFIT));
+            let warning = counts.warning(false).unwrap();
+            assert_eq!(
+                warning.contains("give --hum"),
+                !hum && !coloured,
+                "{warning}"
+            );
+            assert_eq!(warning.contains("--coloured"), !coloured, "{warning}");
+            assert!(warning.contains("a --periods that holds"), "{warning}");
+            assert!(!counts.warning(true).unwrap().contains("--periods"));
+        }
+    }
+
+    #[test]
     fn a_remedy_is_named_for_many() {
         let clean = (30, Flags::empty());
         for (rows, ends) in [

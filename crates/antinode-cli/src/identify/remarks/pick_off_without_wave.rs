@@ -55,6 +55,8 @@ impl PickOffWithoutWave {
 
 #[cfg(test)]
 mod tests {
+    use antinode::Flags;
+
     use super::super::row_scatter::tests::row;
     use super::*;
     use crate::deviates::Deviates;
@@ -101,6 +103,24 @@ mod tests {
         assert_eq!(warning(1000, 0.4, [0.5, 0.3], 1e-3), None);
         // Too few rows, or too much noise.
         assert_eq!(warning(15, 0.0, [0.5, 0.0], 1e-6), None);
-        assert_eq!(warning(1000, 0.0, [0.5, 0.0], 3e-2), None);
+        for deviation in [3e-3, 4e-3, 6e-3, 1e-2, 3e-2] {
+            assert_eq!(warning(1000, 0.0, [0.5, 0.0], deviation), None);
+        }
+    }
+
+    #[test]
+    fn rows_of_a_lost_wave_say_nothing() {
+        let mut without_wave = PickOffWithoutWave::default();
+        for index in 0..40 {
+            let is_lost = index < 20;
+            without_wave.see(&Estimate {
+                flags: if is_lost { Flags::LOST } else { Flags::empty() },
+                main_amplitude: if is_lost { f32::NAN } else { 0.5 },
+                quadrature_amplitude: 0.0,
+                angle: 0.0,
+                ..row(index, 0.0, &mut Deviates(0))
+            });
+        }
+        assert!(without_wave.warning().is_some());
     }
 }

@@ -285,10 +285,37 @@ pub(super) mod tests {
     }
 
     #[test]
+    fn steps_of_the_wave_are_no_scatter() {
+        // As if a gain were switched to and fro, just between two windows.
+        let steps = |index: u64, row: &mut Estimate| {
+            row.main_amplitude += if (index / 25).is_multiple_of(2) {
+                0.1
+            } else {
+                0.0
+            };
+            if index.is_multiple_of(25) {
+                row.flags = Flags::STEP;
+            }
+        };
+        assert_eq!(warning(1.0, steps), None);
+    }
+
+    #[test]
     fn a_small_residual_explains_too_little_scatter_but_not_too_much() {
         // Harmonics and the converter leave a residual, which need not scatter from row to row.
         let quiet = |_, row: &mut Estimate| row.residual_rms = 3e-5;
         assert_eq!(warning(0.4, quiet), None);
+        // In codes of a converter.
+        let of_codes = |residual: f32| {
+            move |_, row: &mut Estimate| {
+                row.main_amplitude *= 2e4;
+                row.main_amplitude_std *= 2e4;
+                row.residual_rms = 2e4 * residual;
+            }
+        };
+        assert_eq!(warning(0.4, of_codes(3e-5)), None);
+        assert!(warning(1.6, of_codes(3e-5)).is_some());
+        assert_eq!(warning(1.6, of_codes(3e-6)), None);
         // Little less scatter may be chance.
         assert_eq!(warning(0.73, |_, _| ()), None);
         assert!(warning(1.6, quiet).is_some());

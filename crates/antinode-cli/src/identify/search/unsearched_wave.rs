@@ -211,7 +211,7 @@ mod tests {
     fn told_of_decaying(tones: &[(f64, f64)], noise: f64, decay: f64) -> Option<String> {
         let mut deviates = Deviates(1);
         let mut unsearched = UnsearchedWave::default();
-        let pairs: Vec<[f32; 2]> = (0..150_000)
+        let mut pairs: Vec<[f32; 2]> = (0..150_000)
             .map(|k| {
                 let left = (-f64::from(k) / decay).exp();
                 [0.8, -0.5].map(|share| {
@@ -223,6 +223,8 @@ mod tests {
                 })
             })
             .collect();
+        // A sample that is missing on one pick-off.
+        pairs[999][1] = f32::NAN;
         unsearched.see(&pairs);
         unsearched.warning(RATE)
     }

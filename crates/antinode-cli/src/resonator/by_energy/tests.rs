@@ -91,6 +91,9 @@ fn if_the_turning_of_patterns_agrees_there_is_no_drift_unless_one_is_seen() {
     assert!((1e-7..1e-5).contains(&hidden), "{hidden}");
     assert!(matches!(of(1e-4, 0.3), ByEnergy::Beside(_)));
     assert_eq!(of(0.0, 0.34), ByEnergy::Denied);
+    let falling = runs(0.03, -0.3, |_, _| 0.0, 2);
+    let falls = found(&falling, true, Some((-0.31, 0.01)));
+    assert!(matches!(falls, ByEnergy::Alone(..)), "{falls:?}");
 }
 
 #[test]

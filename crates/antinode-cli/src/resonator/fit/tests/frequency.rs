@@ -1,6 +1,41 @@
 //! What the frequency uses of a fit.
 
+use super::super::super::frequency::{Frequency, frequency};
 use super::*;
+use crate::runs::Runs;
+
+/// The mean frequency of three ring-downs whose rows have these frequencies, Hz, at a time, s, and state this deviation.
+fn of_rows(mut at: impl FnMut(f64) -> f64, deviation: f64) -> Frequency {
+    let mut rows = Runs::default();
+    rows.runs = [0.2, 0.59, 0.98]
+        .map(|angle| run(&ROUND, 0.0, [1.0, 0.02, angle], 400, 0.1, NOISE, 1))
+        .to_vec();
+    for row in rows.runs.iter_mut().flat_map(|run| &mut run.rows) {
+        row.frequency = at(row.time);
+        row.frequency_deviation = deviation;
+        row.phase = None;
+    }
+    frequency(&rows, &fit(&rows.runs).unwrap())
+}
+
+#[test]
+fn frequencies_that_scatter_by_more_than_their_deviations_widen_that_of_the_mean() {
+    let [honest, boastful] = [0.01, 0.002].map(|deviation| {
+        let mut random = Deviates(1);
+        of_rows(|_| 5332.0 + 0.01 * random.draw(), deviation)
+    });
+    assert_eq!([honest.moves, boastful.moves], [None; 2]);
+    let [(_, honest), (_, boastful)] = [honest.mean, boastful.mean];
+    assert!((boastful / honest - 1.0).abs() < 0.1, "{boastful} {honest}");
+}
+
+#[test]
+fn a_frequency_that_goes_to_and_fro_is_seen() {
+    let mut random = Deviates(1);
+    let swinging = |time: f64| 5332.0 + 0.02 * time.sin() + 0.01 * random.draw();
+    let rms = of_rows(swinging, 0.01).moves.unwrap();
+    assert!((rms / (0.02 / 2f64.sqrt()) - 1.0).abs() < 0.2, "{rms}");
+}
 
 #[test]
 fn the_splits_part_of_the_frequency_is_averaged_across_rows_left_out() {
@@ -39,4 +74,13 @@ fn turning_by_amplitudes_is_known_though_it_is_no_unknown() {
     assert_eq!(found.model, Model::steady(Kind::Shared));
     let (turning, std) = found.turning_by_amplitudes().unwrap();
     assert!(turning.abs() < 4.0 * std && std < 1e-3, "{turning} {std}");
+}
+
+#[test]
+fn a_pattern_that_turns_moves_the_frequency_if_it_has_quadrature() {
+    let [main, quadrature, kappa] = [1.0, 0.3, -0.4];
+    let motion = Motion::new(&[0.05, 0.0, 0.0, 0.0, 0.0, 0.0, kappa, main, quadrature, 0.2]);
+    // 2 θ̇ Q/E at θ̇ = −κ/2.
+    let expected = -kappa * 2.0 * quadrature / (1.0 + quadrature * quadrature);
+    assert!((motion.frequency_by_turning() - expected).abs() < 1e-12);
 }

@@ -143,8 +143,7 @@ impl End {
     }
 
     fn is_cut(&self) -> bool {
-        self.value.is_finite()
-            && self.count >= MIN_AT_END
+        self.count >= MIN_AT_END
             && self.beside >= MIN_BESIDE
             && self.count >= MIN_RATIO * self.beside
     }
@@ -213,6 +212,37 @@ mod tests {
                 assert_eq!(warning(period, main, 0.3, f64::INFINITY, 0.0, 1), None);
             }
         }
+    }
+
+    #[test]
+    fn an_end_one_step_higher_has_the_old_one_beside_it() {
+        let mut cut_off = CutOff::new(Some(1.0));
+        for (value, count) in [(9.0, 100), (10.0, 50)] {
+            let mut stretch = vec![[0.0; 2]; STRETCH];
+            stretch[..count].fill([value; 2]);
+            cut_off.see(&stretch);
+        }
+        let [[_, highest], _] = cut_off.ends;
+        assert_eq!([highest.count, highest.beside], [50, 100]);
+    }
+
+    #[test]
+    fn a_wave_that_reaches_a_rail_late_is_noticed_in_little_memory() {
+        let saw = |top: usize| -> Vec<[f32; 2]> {
+            let codes = (0..40 * STRETCH).map(|k| ((k % top) as f32).min(150.0));
+            codes.map(|code| [code; 2]).collect()
+        };
+        let mut cut_off = CutOff::new(Some(1.0));
+        for top in [100, 200] {
+            cut_off.see(&saw(top));
+        }
+        assert!(cut_off.stretch.len() < STRETCH);
+        cut_off.row(Flags::empty());
+        let warning = cut_off.warning(1.0).unwrap();
+        assert!(
+            warning.starts_with("S_C is at its highest value, 150, 50 times"),
+            "{warning}"
+        );
     }
 
     #[test]

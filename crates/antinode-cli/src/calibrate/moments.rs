@@ -161,3 +161,28 @@ fn phasors([plus, minus]: [Complex<f64>; 2]) -> [Complex<f64>; 2] {
         (minus - plus) * Complex::new(0.0, 0.5),
     ]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_variance_of_a_phasor_is_that_of_the_noise_before_the_calibration() {
+        let corrected = PickOffs {
+            gain_ratio: 3.0,
+            skew: 0.0,
+            angle: 0.15,
+        };
+        // What noise of variance 1 on each raw phasor adds up to in both ideal ones.
+        let one = Complex::new(1.0, 0.0);
+        let zero = Complex::new(0.0, 0.0);
+        let gains = [[one, zero], [zero, one]].map(|raw| {
+            let [c, d] = corrected.correct(raw, 1.0);
+            c.norm_sqr() + d.norm_sqr()
+        });
+        let of_both = (0.5 * (gains[0] + gains[1])).sqrt();
+        let row = Row::of(0.0, [1.0, 0.1, 0.3], [1e-3 * of_both, 1e-3 * of_both, 1e-3]);
+        let variance = Moment::new(&row, &corrected).variance;
+        assert!((variance / 1e-6 - 1.0).abs() < 1e-9, "{variance}");
+    }
+}

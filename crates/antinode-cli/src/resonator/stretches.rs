@@ -207,8 +207,8 @@ mod tests {
     fn ambiguous_phases_are_not_joined() {
         let mut rows = rows(3000, 1);
         for row in &mut rows[1000..] {
-            // A gap so long that turns may be missed.
-            row.time += 10.0;
+            // A gap so long that turns may be missed: half a turn is four deviations.
+            row.time += 3.2;
         }
         for row in &mut rows[2000..] {
             row.phase = None;
@@ -220,7 +220,7 @@ mod tests {
             assert!((seen.weight * OF_FREQUENCY.powi(2) - 1.0).abs() < 1e-9);
         }
         for seen in &seen[..2 * 34] {
-            let late = if seen.time > 115.0 { 10.0 } else { 0.0 };
+            let late = if seen.time > 111.6 { 3.2 } else { 0.0 };
             let truth = 5332.1 + 0.01 * (seen.time - late - 100.0) - 0.02 - 5330.0;
             assert!((seen.excess - truth).abs() < 5.0 / seen.weight.sqrt());
         }

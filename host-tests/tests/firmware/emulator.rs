@@ -177,7 +177,9 @@ impl Device {
                         }
                     }
                 }
-                Err(error) if error.kind() == ErrorKind::WouldBlock => {}
+                // A process that was stopped and goes on is interrupted, too.
+                Err(error)
+                    if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::Interrupted) => {}
                 // QEMU has ended before it took all bytes.
                 Err(error) if error.kind() == ErrorKind::ConnectionReset => return false,
                 Err(error) => panic!("{error}"),

@@ -101,11 +101,11 @@ impl Default for Flaws {
 }
 
 impl Flaws {
-    /// White noise of this rms on both channels, and nothing else.
-    pub fn white(noise: f64) -> Flaws {
-        Flaws {
+    /// White noise of this rms on both channels, input units, 0 or more, and nothing else.
+    pub fn white(noise: f64) -> Self {
+        Self {
             noise,
-            ..Flaws::default()
+            ..Self::default()
         }
     }
 

@@ -4,7 +4,7 @@ use antinode::{Estimate, Flags, Identifier, Settings, Tracker};
 use antinode_sim::{Flaws, Wave, random_wave};
 use host_tests::random::Random;
 use host_tests::score::{StatedRatio, errors};
-use host_tests::{Core, RATE, calibrated, gyro, identify, stream, windows};
+use host_tests::{Core, RATE, calibrated, gyro, identify, identify_parts, stream, windows};
 
 /// True if the core accepts windows of ten periods with this change.
 fn is_taken(change: impl Fn(&mut Settings)) -> bool {
@@ -169,14 +169,11 @@ fn any_sample_rate_scales_times_and_frequencies_to_their_last_digits() {
     let (wave, flaws) = gyro(7);
     let pairs = stream(wave, flaws, 8000, 7);
     let rows = |rate: f64| {
-        let mut rows = Vec::new();
         let settings = Settings {
             sample_rate: rate,
             ..windows(10)
         };
-        let mut core = Core::new(settings).unwrap();
-        core.extend(&pairs, |e| rows.push(e));
-        rows
+        identify_parts(&[&pairs], settings)
     };
     let first = rows(RATE);
     assert!(first.len() > 30);

@@ -3,7 +3,7 @@
 
 use antinode::{Estimate, Settings};
 use antinode_sim::{Flaws, Gyro, Wave};
-use host_tests::{Core, RATE};
+use host_tests::{Core, RATE, identify_parts};
 
 /// Windows before the step, of blocks of 38 pairs.
 const BEFORE: usize = 30;
@@ -65,9 +65,7 @@ impl Trials {
             let pairs: Vec<_> = pairs(wave, seed, 0)
                 .take((BEFORE + 4) * (WINDOW + gap))
                 .collect();
-            let mut found = Vec::new();
-            let mut core = Core::new(settings).unwrap();
-            core.extend(&pairs, |estimate| found.push(estimate));
+            let found = identify_parts(&[&pairs], settings);
             assert!(found.iter().all(|estimate| estimate.flags.is_empty()));
             assert_eq!(found[BEFORE].start as usize, BEFORE * (WINDOW + gap));
             Still { wave, pairs, found }

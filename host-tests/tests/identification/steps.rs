@@ -116,11 +116,8 @@ fn a_drifting_offset_is_flagged_once_at_most_and_a_step_during_the_drift_is() {
         assert!(steps <= 1, "seed {seed}: {steps} of {rows}");
 
         let at = found[60].start as usize;
-        let mut core = Core::new(windows(50)).unwrap();
-        let mut found: Vec<Estimate> = Vec::new();
-        core.extend(&one[..at], |e| found.push(e));
         let beyond: Vec<_> = one[at..].iter().map(|[c, d]| [*c, d + 0.01]).collect();
-        core.extend(&beyond, |e| found.push(e));
+        let found = identify_parts(&[&one[..at], &beyond], windows(50));
         assert_eq!(found[60].flags, Flags::STEP, "seed {seed}");
     }
 }

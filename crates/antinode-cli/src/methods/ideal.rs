@@ -134,11 +134,7 @@ mod tests {
             quadrature_amplitude: 0.0,
             ..Wave::default()
         };
-        let flaws = Flaws {
-            noise: 0.1,
-            ..Flaws::default()
-        };
-        let raw: Vec<Pair> = Gyro::new(wave, flaws, RATE, 1)
+        let raw: Vec<Pair> = Gyro::new(wave, Flaws::white(0.1), RATE, 1)
             .expect("a valid gyro")
             .take(400_000)
             .map(|pair| pair.map(|x| x as f32))

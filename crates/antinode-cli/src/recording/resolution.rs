@@ -119,11 +119,7 @@ mod tests {
             quadrature_amplitude: 0.01 * main_amplitude,
             ..Wave::default()
         };
-        let flaws = Flaws {
-            noise,
-            ..Flaws::default()
-        };
-        let gyro = Gyro::new(wave, flaws, 1e5, 1).expect("a valid gyro");
+        let gyro = Gyro::new(wave, Flaws::white(noise), 1e5, 1).expect("a valid gyro");
         gyro.take(1 << 14).map(|pair| pair.map(&print)).collect()
     }
 

@@ -32,15 +32,7 @@ impl Samples {
             phase: wave.phase + TAU * wave.frequency * lead as f64 / rate,
             ..*wave
         };
-        let gyro = Gyro::new(
-            early,
-            Flaws {
-                noise,
-                ..Flaws::default()
-            },
-            rate,
-            seed,
-        );
+        let gyro = Gyro::new(early, Flaws::white(noise), rate, seed);
         let pairs = gyro.map_or(Vec::new(), |gyro| {
             gyro.take(lead + count + after)
                 .map(|pair| pair.map(|x| x as f32))

@@ -87,11 +87,7 @@ mod tests {
             frequency,
             ..Wave::default()
         };
-        let flaws = Flaws {
-            noise,
-            ..Flaws::default()
-        };
-        let gyro = Gyro::new(wave, flaws, RATE, 7).expect("a valid gyro");
+        let gyro = Gyro::new(wave, Flaws::white(noise), RATE, 7).expect("a valid gyro");
         gyro.take(40_000)
             .map(|pair| pair.map(|x| x as f32))
             .collect()

@@ -8,9 +8,9 @@ use std::{
     process::{Child, ChildStdin, ChildStdout, Command, Stdio},
 };
 
-use crate::common::{RATE, Row, WAVE, beside_flagged, identified, run, run_with, wav};
 #[cfg(unix)]
-use crate::common::{done, send};
+use crate::common::send;
+use crate::common::{RATE, Row, WAVE, beside_flagged, done, identified, run, run_with, wav};
 
 /// A wave with a gap in it.
 fn torn() -> Vec<u8> {

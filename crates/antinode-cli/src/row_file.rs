@@ -20,7 +20,7 @@ const MAX_HEADER: u64 = 1 << 16;
 /// Most lines above the heading of a table.
 const MAX_ABOVE_TABLE: usize = 4;
 /// Separators of fields: spreadsheets write a semicolon if their decimal mark is a comma, and a tab in files of text.
-const MARKS: [u8; 3] = [b',', b';', b'\t'];
+const MARKS: [u8; 3] = *b",;\t";
 
 /// The keys that end what is typed, and their verb.
 const END_OF_INPUT: &str = if cfg!(windows) {

@@ -153,7 +153,7 @@ pub(super) fn is_comment(line: &[u8]) -> bool {
 }
 
 /// The separators of fields other than blanks, in the order in which they are looked for.
-const MARKS: [u8; 3] = [b';', b'\t', b','];
+const MARKS: [u8; 3] = *b";\t,";
 
 fn is_mark(byte: u8) -> bool {
     MARKS.contains(&byte)

@@ -8,6 +8,8 @@ pub mod random;
 pub mod score;
 pub mod table;
 
+use std::ops::Range;
+
 use antinode::{Calibration, Estimate, Identifier, Settings};
 use antinode_sim::{Flaws, Gyro, Wave, random_wave};
 
@@ -123,8 +125,14 @@ pub fn no_wave() -> Wave {
 
 /// The first `samples` pairs of a gyro, in f32.
 pub fn stream(wave: Wave, flaws: Flaws, samples: usize, seed: u64) -> Vec<[f32; 2]> {
+    stream_part(wave, flaws, 0..samples, seed)
+}
+
+/// These of a gyro's pairs, in f32.
+pub fn stream_part(wave: Wave, flaws: Flaws, range: Range<usize>, seed: u64) -> Vec<[f32; 2]> {
     let gyro = Gyro::new(wave, flaws, RATE, seed).unwrap();
-    gyro.take(samples)
+    gyro.skip(range.start)
+        .take(range.len())
         .map(|pair| pair.map(|x| x as f32))
         .collect()
 }

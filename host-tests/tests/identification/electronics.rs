@@ -3,7 +3,7 @@
 use antinode::{Calibration, Estimate, Flags, Settings};
 use antinode_sim::{Flaws, Gyro, Wave};
 use host_tests::{
-    Core, RATE, calibrated, changed, gyro, identify_changed, no_wave, touched, windows,
+    Core, RATE, calibrated, changed, gyro, identify, identify_changed, no_wave, touched, windows,
 };
 
 #[test]
@@ -118,10 +118,7 @@ fn a_limiter_is_flagged_where_a_harmonic_folds_onto_the_third() {
                     ..Flaws::default()
                 };
                 let samples = (300.0 * period * f64::from(periods)) as usize;
-                let gyro = Gyro::new(wave, flaws, RATE, u64::from(periods)).unwrap();
-                let mut core = Core::new(windows(periods)).unwrap();
-                let pairs = gyro.take(samples).map(|pair| pair.map(|x| x as f32));
-                let found: Vec<Estimate> = pairs.filter_map(|pair| core.push(pair)).collect();
+                let found = identify(wave, &flaws, windows(periods), samples, u64::from(periods));
                 assert!(found.len() > 250, "{}", found.len());
                 let clipped = |e: &&Estimate| e.flags.contains(Flags::CLIPPED);
                 let share = found.iter().filter(clipped).count() as f64 / found.len() as f64;

@@ -1,9 +1,11 @@
 //! Faults in streams of seconds: every window that they touch is flagged, no other one is, and the wave is soon tracked again.
 
 use antinode::{Estimate, Flags, Settings};
-use antinode_sim::{Channel, ClipSpan, Dropout, DropoutKind, Flaws, Gyro, Loss, Wave};
+use antinode_sim::{Channel, ClipSpan, Dropout, DropoutKind, Flaws, Loss, Wave};
 use host_tests::score::{errors, stated};
-use host_tests::{Core, RATE, gyro, identify, stream, windows};
+use host_tests::{
+    Core, RATE, gyro, identify, identify_changed, identify_parts, stream, stream_part, windows,
+};
 
 /// Length of the streams, sample pairs.
 const STREAM: usize = 400_000;
@@ -175,12 +177,10 @@ fn dropouts_are_flagged(kind: DropoutKind) {
                     dropouts: vec![dropout],
                     ..flaws.clone()
                 };
-                let gyro = Gyro::new(wave, flaws, RATE, seed).unwrap();
-                let rest = gyro
-                    .skip(before)
-                    .take((to * RATE) as usize + AFTER - before);
+                let rest = before..(to * RATE) as usize + AFTER;
+                let rest = stream_part(wave, flaws, rest, seed);
                 let (mut core, mut found) = (steady.clone(), clean.clone());
-                found.extend(rest.filter_map(|pair| core.push(pair.map(|x| x as f32))));
+                core.extend(&rest, |estimate| found.push(estimate));
                 let name = format!("{kind:?} of {channel:?} for {length} s, seed {seed}");
                 check(&found, from + 2e-5, to - 2e-5, &name);
             }
@@ -226,17 +226,10 @@ fn a_circular_pattern_has_no_angle() {
 #[test]
 fn samples_that_are_not_finite_cost_one_window() {
     let (wave, flaws) = gyro(3);
-    for value in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
-        let mut core = Core::new(windows(10)).unwrap();
-        let gyro = antinode_sim::Gyro::new(wave, flaws.clone(), RATE, 3).unwrap();
-        let mut flagged = Vec::new();
-        for (k, pair) in gyro.take(60_000).enumerate() {
-            let c = if k == 30_000 { value } else { pair[0] as f32 };
-            flagged.extend(
-                core.push([c, pair[1] as f32])
-                    .filter(|estimate| !estimate.flags.is_empty()),
-            );
-        }
+    for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let spoil = |k, [c, d]: [f64; 2]| [if k == 30_000 { value } else { c }, d];
+        let found = identify_changed(wave, &flaws, windows(10), 60_000, 3, spoil);
+        let flagged: Vec<_> = found.iter().filter(|e| !e.flags.is_empty()).collect();
         assert!((1..=2).contains(&flagged.len()), "{value}: {flagged:?}");
         assert!(flagged[0].flags.contains(Flags::NOT_FINITE));
     }
@@ -248,12 +241,8 @@ fn a_step_between_or_within_windows_is_flagged() {
         for kind in ["gain", "offset", "angle", "spike"] {
             let (wave, flaws) = gyro(seed);
             let a = wave.main_amplitude;
-            let mut core = Core::new(windows(10)).unwrap();
             let at = 30_000 + 11 * seed as usize;
-            let gyro = antinode_sim::Gyro::new(wave, flaws, RATE, seed).unwrap();
-            let mut estimates = Vec::new();
-            for (k, pair) in gyro.take(60_000).enumerate() {
-                let [mut c, mut d] = pair;
+            let step = |k, [mut c, mut d]: [f64; 2]| {
                 match kind {
                     "gain" if k >= at => (c, d) = (1.1 * c, 1.1 * d),
                     "offset" if k >= at => c += 0.2 * a,
@@ -264,8 +253,9 @@ fn a_step_between_or_within_windows_is_flagged() {
                     "spike" if k == at => c += 2.0 * a,
                     _ => {}
                 }
-                estimates.extend(core.push([c as f32, d as f32]));
-            }
+                [c, d]
+            };
+            let estimates = identify_changed(wave, &flaws, windows(10), 60_000, seed, step);
             // If the step leaves less than a block of a window on one side, the next window may be the flagged one.
             let within = |e: &&Estimate| (e.start..e.end()).contains(&(at as u64));
             let window = estimates.iter().find(within).unwrap();
@@ -318,14 +308,10 @@ fn a_wave_of_another_frequency_in_place_of_the_wave_is_found() {
                     ..Wave::default()
                 };
                 let flaws = Flaws::white(noise);
-                let mut pairs = stream(wave(from), flaws.clone(), 20_000, 1);
-                pairs.extend(stream(wave(to), flaws, 40_000, 2));
-                let mut core = Core::new(windows(periods)).unwrap();
-                let after: Vec<Estimate> = pairs
-                    .into_iter()
-                    .filter_map(|pair| core.push(pair))
-                    .filter(|estimate| estimate.start >= 20_000)
-                    .collect();
+                let one = stream(wave(from), flaws.clone(), 20_000, 1);
+                let two = stream(wave(to), flaws, 40_000, 2);
+                let mut after = identify_parts(&[&one, &two], windows(periods));
+                after.retain(|estimate| estimate.start >= 20_000);
                 let faults = after.iter().take_while(|row| !is_of(row, to)).count();
                 assert!(
                     faults <= 10 && after.len() > faults + 4,

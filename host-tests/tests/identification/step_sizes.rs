@@ -1,9 +1,11 @@
 //! Size of the smallest steps that are flagged, in the stated deviations, beyond the floors of 0.2 % of a_A, 2 mrad
 //! of the angle and 20 mrad of the phase.
 
+use std::ops::Range;
+
 use antinode::{Estimate, Settings};
-use antinode_sim::{Flaws, Gyro, Wave};
-use host_tests::{Core, RATE, identify_parts};
+use antinode_sim::{Flaws, Wave};
+use host_tests::{RATE, identify_parts, stream_part};
 
 /// Windows before the step, of blocks of 38 pairs.
 const BEFORE: usize = 30;
@@ -62,9 +64,7 @@ impl Trials {
                 phase: 0.1 * seed as f64,
                 ..Wave::default()
             };
-            let pairs: Vec<_> = pairs(wave, seed, 0)
-                .take((BEFORE + 4) * (WINDOW + gap))
-                .collect();
+            let pairs = in_noise(wave, seed, 0..(BEFORE + 4) * (WINDOW + gap));
             let found = identify_parts(&[&pairs], settings);
             assert!(found.iter().all(|estimate| estimate.flags.is_empty()));
             assert_eq!(found[BEFORE].start as usize, BEFORE * (WINDOW + gap));
@@ -91,23 +91,18 @@ impl Trials {
                 Of::Angle => to.angle += step,
                 Of::Phase => to.phase += step,
             }
-            let mut core = Core::new(self.settings).unwrap();
-            let mut is_flagged = false;
-            let mut see = |estimate: Estimate| is_flagged |= !estimate.flags.is_empty();
-            core.extend(&still.pairs[..at], &mut see);
-            let stepped: Vec<_> = pairs(to, seed, at).take(still.pairs.len() - at).collect();
-            core.extend(&stepped, &mut see);
+            let stepped = in_noise(to, seed, at..still.pairs.len());
+            let found = identify_parts(&[&still.pairs[..at], &stepped], self.settings);
+            let is_flagged = found.iter().any(|estimate| !estimate.flags.is_empty());
             count += usize::from(is_flagged);
         }
         count as f64 / TRIALS as f64
     }
 }
 
-/// The pairs of a wave in noise, from one on.
-fn pairs(wave: Wave, seed: u64, from: usize) -> impl Iterator<Item = [f32; 2]> {
-    let flaws = Flaws::white(0.02);
-    let gyro = Gyro::new(wave, flaws, RATE, seed).unwrap();
-    gyro.skip(from).map(|pair| pair.map(|x| x as f32))
+/// These pairs of a wave in noise.
+fn in_noise(wave: Wave, seed: u64, range: Range<usize>) -> Vec<[f32; 2]> {
+    stream_part(wave, Flaws::white(0.02), range, seed)
 }
 
 #[test]

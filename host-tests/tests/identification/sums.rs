@@ -107,11 +107,9 @@ where
     let (_, block) = demodulator.push_slice(&pairs);
     let block = block.expect("the block is whole");
     let watch = block.watch.as_ref().expect("it is watched");
-    watch.each_ref().map(|watch| {
-        [watch.third_cosine, watch.third_sine].map(|sum| {
-            let scale = full_scale * f32::from(block.layout.scale.max(1));
-            f64::from(S::sum_to_f32(sum)) / f64::from(scale)
-        })
+    let scale = full_scale * f32::from(block.layout.scale.max(1));
+    core::array::from_fn(|channel| {
+        S::third(&block.sums[channel], &watch[channel]).map(|sum| f64::from(sum / scale))
     })
 }
 

@@ -150,16 +150,14 @@ pub fn watch_floats<P: SamplePair<f32>>(
         *watch = [ChannelWatch::empty(); 2];
     }
     for ((pair, [cosine, sine]), index) in pairs.iter().zip(weights).zip(index..) {
-        // cos 3φ = cos φ (4 cos² φ − 3), sin 3φ = sin φ (4 cos² φ − 1).
-        let square = 4.0 * cosine * cosine;
-        let (of_cosine, of_sine) = (square - 3.0, square - 1.0);
+        let square = cosine * cosine;
         for ((sums, watch), sample) in sums.iter_mut().zip(&mut *watch).zip(pair.pair()) {
             let (even, odd) = (sample * cosine, sample * sine);
             sums.cosine += even;
             sums.sine += odd;
             sums.sum += sample;
-            watch.third_cosine += even * of_cosine;
-            watch.third_sine += odd * of_sine;
+            watch.third_cosine += even * square;
+            watch.third_sine += odd * square;
             watch.see(sample, index);
         }
     }

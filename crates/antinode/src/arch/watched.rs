@@ -86,28 +86,25 @@ extern "C" fn see_again<P: SamplePair<f32>>(
     }
 }
 
-/// Macro that adds a pair to the sums, s16 to s21, and to those of the third harmonic, s22 to s25; s26 and s27 hold 3 and 1.
+/// Macro that adds a pair to the sums, s16 to s21, and to those of the third harmonic, s22 to s25.
 macro_rules! add {
     () => {
         ".macro ADD cosine, sine, c, d
-        vadd.f32 s8, \\cosine, \\cosine
         vmul.f32 s10, \\c, \\cosine
         vmul.f32 s11, \\c, \\sine
-        vmul.f32 s8, s8, s8
+        vmul.f32 s8, \\cosine, \\cosine
         vmul.f32 s12, \\d, \\cosine
         vmul.f32 s13, \\d, \\sine
-        vsub.f32 s9, s8, s27
-        vsub.f32 s8, s8, s26
         vadd.f32 s16, s16, s10
         vadd.f32 s17, s17, s11
         vadd.f32 s18, s18, \\c
         vmul.f32 s10, s10, s8
-        vmul.f32 s11, s11, s9
+        vmul.f32 s11, s11, s8
         vadd.f32 s19, s19, s12
         vadd.f32 s20, s20, s13
         vadd.f32 s21, s21, \\d
         vmul.f32 s12, s12, s8
-        vmul.f32 s13, s13, s9
+        vmul.f32 s13, s13, s8
         vadd.f32 s22, s22, s10
         vadd.f32 s23, s23, s11
         vadd.f32 s24, s24, s12
@@ -145,20 +142,21 @@ unsafe extern "C" fn watch_codes(
         "ssub16 r12, r8, \\least",
         "sel r8, \\least, r8",
         ".endm",
-        // r4: pairs, r5: weights, r6: count of pairs left, r9: previous pair, r10: two ones, r11: index.
+        // r4: pairs, r5: weights, r6: count of pairs left, r9: previous pair, r10: two ones, r11: where the pair before
+        // the block would lie.
         "push {{r0, r4-r11, lr}}",
-        "vpush {{s16-s27}}",
+        "vpush {{s16-s25}}",
         "mov r4, r1",
         "mov r5, r2",
         "lsrs r6, r3, #16",
-        "uxth r11, r3",
-        "ldr r1, [sp, #88]",
+        "uxth r3, r3",
+        "sub r11, r1, r3, lsl #2",
+        "sub r11, #4",
+        "ldr r1, [sp, #80]",
         "vldmia r0, {{s16-s21}}",
         "vldmia r1, {{s22-s23}}",
         "add r1, r1, #{watch}",
         "vldmia r1, {{s24-s25}}",
-        "vmov.f32 s26, #3.0",
-        "vmov.f32 s27, #1.0",
         "mov r10, #0x00010001",
         "ldr r7, [r4]",
         "mov r8, r7",
@@ -170,21 +168,20 @@ unsafe extern "C" fn watch_codes(
         "ldr r0, [r4], #8",
         // Of halves that equal those before, the exclusive or is 0 and leaves a one.
         "eor r2, r0, r9",
-        "eor r3, r1, r0",
         "uqsub16 r2, r10, r2",
+        "ssub16 r3, r0, r1",
         "uqsub16 r3, r10, r3",
         "orrs r12, r2, r3",
         "bne 6f",
+        // The halves that SEL takes are those of SSUB16: what lies between leaves its flags alone.
         "2:",
         "mov r9, r1",
-        "ssub16 r12, r0, r1",
         "sel r2, r0, r1",
         "sel r3, r1, r0",
         "REACH r2, r3",
         "CONVERT s0, s1, r0",
         "CONVERT s2, s3, r1",
         "vldmia r5!, {{s4-s7}}",
-        "add r11, r11, #2",
         "ADD s4, s5, s0, s1",
         "ADD s6, s7, s2, s3",
         "subs r6, #2",
@@ -203,35 +200,39 @@ unsafe extern "C" fn watch_codes(
         "vldmia r5, {{s4-s5}}",
         "ADD s4, s5, s0, s1",
         "5:",
-        "ldr r0, [sp, #48]",
-        "ldr r1, [sp, #88]",
+        "ldr r0, [sp, #40]",
+        "ldr r1, [sp, #80]",
         "vstmia r0, {{s16-s21}}",
         "vstmia r1, {{s22-s23}}",
         "add r1, r1, #{watch}",
         "vstmia r1, {{s24-s25}}",
         "mov r0, r7",
         "mov r1, r8",
-        "vpop {{s16-s27}}",
+        "vpop {{s16-s25}}",
         "pop {{r3, r4-r11, pc}}",
-        // Repeated samples. The call clobbers r0 to r3: both pairs are loaded again.
+        // Repeated samples. The call clobbers r0 to r3 and the flags: both pairs are loaded and compared again.
         "6:",
         "cbz r2, 8f",
-        "ldr r0, [sp, #88]",
+        "ldr r0, [sp, #80]",
         "sub r1, r4, #12",
-        "mov r2, r11",
+        "sub r2, r1, r11",
+        "lsr r2, r2, #2",
         "bl {again}",
         "8:",
-        "ldr r0, [sp, #88]",
+        "ldr r0, [sp, #80]",
         "sub r1, r4, #8",
-        "add r2, r11, #1",
+        "sub r2, r1, r11",
+        "lsr r2, r2, #2",
         "bl {again}",
         "ldr r0, [r4, #-8]",
         "ldr r1, [r4, #-4]",
+        "ssub16 r3, r0, r1",
         "b 2b",
         "7:",
-        "ldr r0, [sp, #88]",
+        "ldr r0, [sp, #80]",
         "sub r1, r4, #4",
-        "mov r2, r11",
+        "sub r2, r1, r11",
+        "lsr r2, r2, #2",
         "bl {again}",
         "ldr r0, [r4]",
         "b 4b",
@@ -265,27 +266,27 @@ unsafe extern "C" fn watch_pairs(
         "it gt",
         "vmovgt.f32 \\most, \\sample",
         ".endm",
-        // s28, s29: lowest and highest of C; s30, s31: of D; s14, s15: previous pair; r4: pairs, r5: weights, r6: count of pairs left,
-        // r7: watch, r8: index, r9: sums.
+        // s26, s27: lowest and highest of C; s28, s29: of D; s14, s15: previous pair; r4: pairs, r5: weights, r6: count of pairs left,
+        // r7: watch, r8: where the pair before the block would lie, r9: sums.
         "push {{r4-r9, lr}}",
         "ldr r7, [sp, #28]",
         "sub sp, #4",
-        "vpush {{s16-s31}}",
+        "vpush {{s16-s29}}",
         "mov r4, r1",
         "mov r5, r2",
         "mov r9, r0",
         "lsrs r6, r3, #16",
-        "uxth r8, r3",
+        "uxth r3, r3",
+        "sub r8, r1, r3, lsl #3",
+        "sub r8, #8",
         "vldmia r0, {{s16-s21}}",
         "vldmia r7, {{s22-s23}}",
-        "vldr s28, [r7, #8]",
-        "vldr s29, [r7, #12]",
+        "vldr s26, [r7, #8]",
+        "vldr s27, [r7, #12]",
         "vldr s24, [r7, #{watch}]",
         "vldr s25, [r7, #{watch} + 4]",
-        "vldr s30, [r7, #{watch} + 8]",
-        "vldr s31, [r7, #{watch} + 12]",
-        "vmov.f32 s26, #3.0",
-        "vmov.f32 s27, #1.0",
+        "vldr s28, [r7, #{watch} + 8]",
+        "vldr s29, [r7, #{watch} + 12]",
         "mvn r0, #0",
         "vmov s14, s15, r0, r0",
         "1:",
@@ -299,29 +300,29 @@ unsafe extern "C" fn watch_pairs(
         "2:",
         "vmov.f32 s14, s0",
         "vmov.f32 s15, s1",
-        "REACH s0, s28, s29",
-        "REACH s1, s30, s31",
+        "REACH s0, s26, s27",
+        "REACH s1, s28, s29",
         "vldmia r5!, {{s4-s5}}",
-        "add r8, r8, #1",
         "ADD s4, s5, s0, s1",
         "subs r6, #1",
         "bne 1b",
         "vstmia r9, {{s16-s21}}",
         "vstmia r7, {{s22-s23}}",
-        "vstr s28, [r7, #8]",
-        "vstr s29, [r7, #12]",
+        "vstr s26, [r7, #8]",
+        "vstr s27, [r7, #12]",
         "vstr s24, [r7, #{watch}]",
         "vstr s25, [r7, #{watch} + 4]",
-        "vstr s30, [r7, #{watch} + 8]",
-        "vstr s31, [r7, #{watch} + 12]",
-        "vpop {{s16-s31}}",
+        "vstr s28, [r7, #{watch} + 8]",
+        "vstr s29, [r7, #{watch} + 12]",
+        "vpop {{s16-s29}}",
         "add sp, #4",
         "pop {{r4-r9, pc}}",
         // Repeated samples. The call clobbers s0 to s15, and the pair is loaded again.
         "3:",
         "mov r0, r7",
         "sub r1, r4, #16",
-        "mov r2, r8",
+        "sub r2, r1, r8",
+        "lsr r2, r2, #3",
         "bl {again}",
         "sub r1, r4, #8",
         "vldmia r1, {{s0-s1}}",

@@ -32,9 +32,9 @@ impl<S: Sample> ChannelSums<S> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct ChannelWatch<S: Sample> {
-    /// Σ S cos 3φ, within the same bounds as the sums of the carrier.
+    /// Σ S cos 3φ of codes; of f32, which need no second table then, Σ S cos φ cos² φ. Within the same bounds as the sums of the carrier.
     pub third_cosine: S::Sum,
-    /// Σ S sin 3φ.
+    /// Σ S sin 3φ of codes; of f32, Σ S sin φ cos² φ.
     pub third_sine: S::Sum,
     /// The least sample.
     pub low: S,

@@ -56,6 +56,15 @@ pub trait Arithmetic: Zero {
         index: u16,
     ) where
         Self: Sample;
+    /// Σ S cos 3φ and Σ S sin 3φ, in f32.
+    #[inline(always)]
+    fn third(_: &ChannelSums<Self>, watch: &ChannelWatch<Self>) -> [f32; 2]
+    where
+        Self: Sample,
+    {
+        [watch.third_cosine, watch.third_sine].map(Self::sum_to_f32)
+    }
+
     /// The longest runs at the low and the high extreme; 1 where they are not counted, as for codes.
     #[inline(always)]
     fn runs(_: &ChannelWatch<Self>) -> [u16; 2]

@@ -31,6 +31,15 @@ impl Arithmetic for f32 {
         sum
     }
 
+    /// cos 3φ = 4 cos φ cos² φ − 3 cos φ, sin 3φ = 4 sin φ cos² φ − sin φ.
+    #[inline(always)]
+    fn third(sums: &ChannelSums<Self>, watch: &ChannelWatch<Self>) -> [f32; 2] {
+        [
+            4.0 * watch.third_cosine - 3.0 * sums.cosine,
+            4.0 * watch.third_sine - sums.sine,
+        ]
+    }
+
     #[inline(always)]
     fn runs(watch: &ChannelWatch<Self>) -> [u16; 2] {
         watch.longest()

@@ -4,7 +4,7 @@ use num_complex::Complex32;
 
 use super::model::Model;
 use super::response::Whitened;
-use crate::block::{Block, ChannelWatch};
+use crate::block::{Block, ChannelSums, ChannelWatch};
 use crate::sample::Sample;
 
 /// A block as the solution sees it, in f32 whatever its samples were.
@@ -59,23 +59,22 @@ impl Model {
                 S::sum_to_f32(sums.sum),
             );
         }
+        let [of_c, of_d] = &block.sums;
         let Some([c, d]) = &block.watch else {
             seen.watched = None;
             return;
         };
         seen.watched = Some(Watched {
-            third: [third(c), third(d)],
+            third: [third(of_c, c), third(of_d, d)],
             extremes: [extremes(c), extremes(d)],
         });
     }
 }
 
 #[inline(always)]
-fn third<S: Sample>(watch: &ChannelWatch<S>) -> Complex32 {
-    Complex32::new(
-        S::sum_to_f32(watch.third_cosine),
-        S::sum_to_f32(watch.third_sine),
-    )
+fn third<S: Sample>(sums: &ChannelSums<S>, watch: &ChannelWatch<S>) -> Complex32 {
+    let [cosine, sine] = S::third(sums, watch);
+    Complex32::new(cosine, sine)
 }
 
 #[inline(always)]

@@ -57,22 +57,33 @@ fn steady(runs: &[Run]) -> Option<Found> {
     if each.as_ref().is_some_and(is_enough) {
         return each;
     }
-    let determined = |kind| {
-        let shared = found(kind)?;
-        shared.is_known(each.as_ref()).then_some(shared)
+    let known = |found: Option<Found>| found.filter(|found| found.is_known(each.as_ref()));
+    let linear = known(found(Kind::Shared));
+    // If γ is 0, it is no unknown: it would make all others less certain, above all rotation, which it resembles if quadrature stays. Where
+    // a fit without it explains the rows, a single step shows that.
+    let explained = linear.as_ref().filter(|linear| linear.is_explained());
+    let turned = explained.and_then(|linear| known(turned(runs, linear)));
+    let nonlinear = if explained.is_none() || turned.as_ref().is_some_and(Found::is_nonlinear) {
+        known(found(Kind::Nonlinear))
+    } else {
+        turned
     };
-    // If γ is 0, it is no unknown: it would make all others less certain, above all rotation, which it resembles if quadrature stays.
-    let nonlinear = determined(Kind::Nonlinear);
-    let turning = nonlinear.as_ref().and_then(Found::turning_by_amplitudes);
-    let linear = || {
-        let shared = determined(Kind::Shared)?;
-        Some(Found {
-            unseen_turning: turning,
-            ..shared
-        })
-    };
+    let unseen_turning = nonlinear.as_ref().and_then(Found::turning_by_amplitudes);
+    let linear = linear.map(|linear| Found {
+        unseen_turning,
+        ..linear
+    });
     let nonlinear = nonlinear.filter(Found::is_nonlinear);
-    nonlinear.or_else(linear).or(each)
+    nonlinear.or(linear).or(each)
+}
+
+/// A fit moved by a step in which patterns are also turned by their amplitudes.
+fn turned(runs: &[Run], linear: &Found) -> Option<Found> {
+    let model = Model::steady(Kind::Nonlinear);
+    let values = model.values_from(linear.model, &linear.values, runs.len());
+    let normal = Normal::of(runs, model, &values);
+    let moved = values + normal.step(0.0)?;
+    normal.conclude(model, moved)
 }
 
 /// The fit if patterns are turned unsteadily.

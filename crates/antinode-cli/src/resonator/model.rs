@@ -155,7 +155,8 @@ impl Model {
         self.own_at(run + 1) - self.curves()
     }
 
-    /// These values of the unknowns of another model of the same kind as values of this one, with 0 for unknowns that it lacks.
+    /// These values of the unknowns of another model, of the same kind or without γ, as values of this one, with 0 for unknowns that it
+    /// lacks.
     pub fn values_from(self, other: Self, values: &DVector<f64>, runs: usize) -> DVector<f64> {
         let mut all = DVector::zeros(self.unknowns(runs));
         let mut copy = |to: usize, from: usize, count: usize| {

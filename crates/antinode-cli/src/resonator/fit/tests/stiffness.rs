@@ -71,3 +71,20 @@ fn turning_by_amplitudes_is_not_reported_if_residuals_are_more_than_noise() {
     found.widening *= (turning.abs() / std / 2.9).powi(2);
     assert!(found.is_nonlinear() && !found.withholds_turning());
 }
+
+#[test]
+fn a_single_step_shows_the_turning_by_amplitudes_as_a_whole_fit_does() {
+    for seed in 0..10 {
+        let quadrature = [0.3, -0.3].map(|quadrature| [1.0, quadrature, 0.3]);
+        let runs = quadrature.map(|start| run(&RESONATOR, 0.3, start, 400, 0.1, NOISE, seed));
+        let linear = found(&runs, Model::steady(Kind::Shared)).unwrap();
+        let whole = found(&runs, Model::steady(Kind::Nonlinear));
+        let [(step, of_step), (whole, of_whole)] = [turned(&runs, &linear), whole]
+            .map(|found| found.unwrap().turning_by_amplitudes().unwrap());
+        assert!((step - whole).abs() < 0.1 * of_whole, "{step} {whole}");
+        assert!(
+            (of_step / of_whole - 1.0).abs() < 0.02,
+            "{of_step} {of_whole}"
+        );
+    }
+}

@@ -86,8 +86,10 @@ impl Series {
         if self.gamma != 0.0 {
             let mut of_products = SMatrix::<f64, N, 2>::zeros();
             for (a, b) in products() {
-                of_products += b.fixed_columns::<2>(1) * (2.0 * a[(0, 3)]);
-                of_products += a.column(3) * (b.fixed_view::<1, 2>(0, 1) * 2.0);
+                for (i, mut sum) in of_products.column_iter_mut().enumerate() {
+                    sum.axpy(2.0 * a[(0, 3)], &b.column(1 + i), 1.0);
+                    sum.axpy(2.0 * b[(0, 1 + i)], &a.column(3), 1.0);
+                }
             }
             slope
                 .column_mut(1)

@@ -252,3 +252,37 @@ fn the_first_angle_after_a_single_circular_window_is_reacquired() {
     assert_eq!(first.flags.without(Flags::STEP), Flags::REACQUIRED);
     assert!(found[2..].iter().all(|e| e.flags.is_empty()));
 }
+
+#[test]
+fn a_pattern_that_a_split_turns_past_a_circle_is_not_lost() {
+    // There one of its waves nearly vanishes, and turns fast: only the mean frequency weighted by power stays.
+    for noise in [1e-5, 1e-3] {
+        let (mut circular, mut rows) = (0, 0);
+        for seed in 0..10 {
+            let wave = Wave {
+                main_amplitude: 1.0,
+                quadrature_amplitude: 0.998,
+                angle: 0.15 * seed as f64,
+                frequency_split: 2.0,
+                ..Wave::default()
+            };
+            for estimate in identify(wave, &Flaws::white(noise), windows(10), 150_000, seed) {
+                let flags = estimate.flags;
+                assert!(
+                    !flags.contains(Flags::LOST),
+                    "noise {noise}, seed {seed}: {flags} at {} s",
+                    estimate.time
+                );
+                rows += 1;
+                if flags.contains(Flags::CIRCULAR) {
+                    circular += 1;
+                    let error = (estimate.frequency - wave.frequency).abs();
+                    let room = 0.1 + 5.0 * f64::from(estimate.frequency_std);
+                    assert!(error < room, "{error} Hz: {estimate:?}");
+                }
+            }
+        }
+        println!("noise {noise}: {circular} of {rows} windows are circular");
+        assert!(circular > 3 && rows > 7_500, "{circular} of {rows}");
+    }
+}

@@ -124,14 +124,10 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             wave.record.average_rate(before);
         }
         // The pattern is taken to be at rest in a wave's first window and where it is circular, as it cannot be seen to turn.
-        if is_circular || self.before.is_none() || !self.trend.is_empty() {
-            let drift = wave.record.drift;
-            self.trend.take_turning_out(wave, model);
-            if self.before.is_none() && !is_circular {
-                // The pattern may in fact turn by as much as it seems to.
-                let moved = wave.record.drift - drift;
-                wave.record.drift_variance += moved * moved;
-            }
+        let is_first = self.before.is_none() && !is_circular;
+        if is_circular || is_first || !self.trend.is_empty() {
+            self.trend
+                .take_turning_out(wave, model, is_first, is_circular);
         }
         let is_misfit = flags.contains(Flags::MISFIT);
         let is_no_wave =
@@ -177,12 +173,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
                 self.followed = Followed::from(record);
             }
         }
-        let drift = if is_circular {
-            fit.waves.drift() * model.per_half
-        } else {
-            record.drift
-        };
-        self.remember(record, flags, between, offset_rates, drift);
+        self.remember(record, flags, between, offset_rates);
         Some(flags)
     }
 
@@ -199,15 +190,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         })
     }
 
-    /// Keeps what the next windows need; `drift` is the frequency beyond the carrier weighted by power, rad a sample.
-    fn remember(
-        &mut self,
-        record: &Record,
-        flags: Flags,
-        between: Flags,
-        offset_rates: [f32; 2],
-        drift: f32,
-    ) {
+    /// Keeps what the next windows need.
+    fn remember(&mut self, record: &Record, flags: Flags, between: Flags, offset_rates: [f32; 2]) {
         self.broken = flags.intersects(BROKEN);
         if self.broken {
             // The next window is judged by itself: a change between it and the last clean one is already flagged.
@@ -242,8 +226,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let last = self.before;
         let before = self.before.insert(*record);
         if flags.contains(Flags::CIRCULAR) {
-            // A circular pattern has neither an angle nor a phase of its own, and only one of its two waves knows the frequency.
-            before.drift = drift;
+            // A circular pattern has neither an angle nor a phase of its own.
             before.angle = angle;
             // The pattern may have turned on since the last angle; if there was none, it is not known how fast.
             (before.predicted_rate, before.predicted_rate_variance) = (0.0, f32::INFINITY);

@@ -18,7 +18,7 @@ use crate::cut::MAX_BLOCKS;
 use crate::estimate::{Estimate, Flags};
 use crate::sample::Sample;
 use crate::settings::{Settings, SettingsError};
-use crate::window::{CARRIER_REACH, Fit, Gathered, Model, solve};
+use crate::window::{Fit, Gathered, Model, solve};
 use angle::Angle;
 use failures::Failures;
 use followed::Followed;
@@ -342,7 +342,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         self.failures = Failures::NONE;
     }
 
-    /// Fits the waves of the window gathered, from the last clean frequency or the detector's.
+    /// Fits the waves of the window gathered, from the last clean carrier or the detector's frequency.
     fn fit(&mut self, fit: &mut Fit) {
         let Some(model) = &mut self.model else {
             return;
@@ -350,19 +350,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let rough = |model: &Model| DETECTOR_UNCERTAINTY * model.layout.step.radians();
         let (carrier, uncertainty) = match &self.before {
             None => (model.layout.step, rough(model)),
-            Some(before) => {
-                // A model that is near enough is kept: its matrix need not be built anew.
-                let drift = before.frequency_beyond(model.carrier);
-                let near = (drift * model.half).abs() < CARRIER_REACH;
-                (
-                    if near {
-                        model.carrier
-                    } else {
-                        before.carrier.shifted(before.drift)
-                    },
-                    0.0,
-                )
-            }
+            // Where the last clean fit ended: it is near the greater wave, even if the lesser turns fast near a circle.
+            Some(before) => (before.carrier, 0.0),
         };
         let blocks = self.gathered.blocks();
         solve(model, blocks, carrier, uncertainty, fit);

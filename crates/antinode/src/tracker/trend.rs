@@ -132,9 +132,16 @@ impl Trend {
         self.points.get(..length).unwrap_or(&self.points)
     }
 
-    /// Takes the share of a turning pattern out of a window's frequency, by the rate that the angles of the windows before predict.
+    /// Takes the share of a turning pattern out of a window's frequency, by the rate that the angles of the windows before predict. If the
+    /// window's own rate contradicts that, it is not done, except for a circular pattern, whose lesser wave is too small to know a rate.
     #[inline]
-    pub(crate) fn take_turning_out(&mut self, wave: &mut Standing, model: &Model) {
+    pub(crate) fn take_turning_out(
+        &mut self,
+        wave: &mut Standing,
+        model: &Model,
+        is_first: bool,
+        is_circular: bool,
+    ) {
         let record = &mut wave.record;
         let rate = self.rate(record, model.per_half);
         let (difference, spread) = if rate.variance > 0.0 {
@@ -145,14 +152,19 @@ impl Trend {
             // All of them overlap this window: nothing is known of its rate, not even that the pattern is at rest.
             return;
         };
-        if difference * difference < 16.0 * spread {
+        if is_circular || difference * difference < 16.0 * spread {
             let (squared, per_half) = (model.half * model.half, model.per_half);
             let per_spread = 1.0 / (squared * spread);
-            record.drift -= wave.drift_turning * per_spread * difference;
+            let moved = wave.drift_turning * per_spread * difference;
+            record.drift -= moved;
             // The variance less covariance²/spread, without a difference, which would lose all digits near a circle.
             record.drift_variance = (wave.turn_determinant * per_half * per_half
                 + record.drift_variance * rate.variance * squared)
                 * per_spread;
+            if is_first {
+                // The pattern may in fact turn by as much as it seems to.
+                record.drift_variance += moved * moved;
+            }
         }
     }
 

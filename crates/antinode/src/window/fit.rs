@@ -16,7 +16,7 @@ use crate::phase::PhaseStep;
 use crate::scalar::lesser;
 
 /// Beyond this phase (rad) between a window's middle and its end the carrier is moved before the fit is believed.
-pub(crate) const CARRIER_REACH: f32 = 0.05;
+const CARRIER_REACH: f32 = 0.05;
 /// Beyond this phase, rad per half window, the wave is nowhere near the carrier.
 const MAX_DRIFT: f32 = 1.5;
 /// The highest carrier, 0.45 turns a sample: a known frequency is at most 0.42, and near half a turn sine and cosine cannot be told apart.

@@ -16,7 +16,7 @@ mod third;
 mod waves;
 
 pub(crate) use examine::Remains;
-pub(crate) use fit::{CARRIER_REACH, Fit, solve};
+pub(crate) use fit::{Fit, solve};
 pub(crate) use gathered::Gathered;
 pub(crate) use model::Model;
 pub(crate) use normal::Covariance;

@@ -62,11 +62,11 @@ fn steady(runs: &[Run]) -> Option<Found> {
     // If γ is 0, it is no unknown: it would make all others less certain, above all rotation, which it resembles if quadrature stays. Where
     // a fit without it explains the rows, a single step shows that.
     let explained = linear.as_ref().filter(|linear| linear.is_explained());
-    let turned = explained.and_then(|linear| known(turned(runs, linear)));
-    let nonlinear = if explained.is_none() || turned.as_ref().is_some_and(Found::is_nonlinear) {
+    let stepped = explained.and_then(|linear| known(turned(runs, linear)));
+    let nonlinear = if explained.is_none() || stepped.as_ref().is_some_and(Found::is_nonlinear) {
         known(found(Kind::Nonlinear))
     } else {
-        turned
+        stepped
     };
     let unseen_turning = nonlinear.as_ref().and_then(Found::turning_by_amplitudes);
     let linear = linear.map(|linear| Found {

@@ -207,19 +207,14 @@ impl Record {
     pub(crate) fn phase_advance(&self, before: &Self) -> f32 {
         let half_samples = self.middle.wrapping_sub(before.middle);
         let whole = before.carrier.after_half_samples(half_samples as i64);
-        let beyond = before.drift + self.frequency_change(before);
+        let beyond = self.frequency_beyond(before.carrier);
         let run = 0.25 * long(half_samples) * (beyond + before.drift);
         let whole = (whole.0 as i32) as f32 * (core::f32::consts::TAU / 4_294_967_296.0);
         (before.phase - self.phase) - whole - run
     }
 
-    /// The frequency of this window less that of `before`, rad/sample.
-    fn frequency_change(&self, before: &Self) -> f32 {
-        self.frequency_beyond(before.carrier) - before.drift
-    }
-
     /// The frequency of this window beyond a carrier, rad/sample.
-    pub(crate) fn frequency_beyond(&self, carrier: PhaseStep) -> f32 {
+    fn frequency_beyond(&self, carrier: PhaseStep) -> f32 {
         let steps = self.carrier.0.wrapping_sub(carrier.0) as i32 as f32;
         steps * (core::f32::consts::TAU / 4_294_967_296.0) + self.drift
     }

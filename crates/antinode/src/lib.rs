@@ -143,9 +143,9 @@
 //! | turning at 6 rad/s, decaying with τ = 0.3 s, drifting 2 Hz/s, 0.2 % noise, 10 periods | rms 1.00 to 1.07 of the bound |
 //!
 //! Stated standard deviations are within 5 % of the scatter. They include the rounding of f32, up to 7·10⁻⁷ of a_A, and with f32 samples up
-//! to 10⁻⁷ of larger offsets: in long windows with as little noise as that, they exceed the scatter. Rounding adds up to 8·10⁻⁶ of a_A to
-//! `residual_rms`. The bound is that of seven constant parameters, offsets and frequency among them. The errors and deviations are asserted,
-//! with a margin, by the tests of `host-tests`.
+//! to 4·10⁻⁷ of larger offsets: with as little noise as that, they exceed the scatter. Rounding adds up to 8·10⁻⁶ of a_A, or 5·10⁻⁶ of a
+//! larger offset, to `residual_rms`. The bound is that of seven constant parameters, offsets and frequency among them. The errors and
+//! deviations are asserted, with a margin, by the tests of `host-tests`.
 //!
 //! # Limits
 //!

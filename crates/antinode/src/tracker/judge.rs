@@ -35,9 +35,9 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let model = self.model.as_ref()?;
         let own = fit.remains.variance();
         let [noise, stated] = self.noise.blended(own, fit.remains.freedom);
-        // Rounding of f32 is an error too, and does not average out; only that of offsets does where sums are exact, as those of codes.
+        // Rounding of f32 is an error too, and does not average out; that of offsets does so in part, which part the residual shows.
         let whole = 1.0 + model.half;
-        let of_offsets = if model.layout.scale == 0 { whole } else { 1.0 };
+        let of_offsets = 1.0 + whole / 128.0;
         let [c, d] = fit.offsets;
         let rounding = 1e-14 * (whole * fit.waves.power() + of_offsets * (c * c + d * d));
         let least = self.noise.least(noise);

@@ -168,7 +168,9 @@ impl Model {
         fit.remains.residual -= explained;
         let left = explained * fit.remains.freedom * f32::from(self.blocks);
         let negligible = left <= NEGLIGIBLE * fit.remains.residual;
-        fit.settled && (negligible || moved <= SETTLED * SETTLED * size)
+        // An offset far above the wave may move by so much that next to nothing of the residual seen is left.
+        let is_seen = explained <= fit.remains.residual;
+        fit.settled && (negligible || is_seen && moved <= SETTLED * SETTLED * size)
     }
 }
 

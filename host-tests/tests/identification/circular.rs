@@ -1,8 +1,8 @@
 //! Patterns near a circle: when they are flagged, and how the angle continues after them.
 
-use antinode::{Calibration, Flags, Settings};
+use antinode::{Calibration, Estimate, Flags, Settings};
 use antinode_sim::{Flaws, Wave};
-use host_tests::{Core, RATE, identify, identify_changed, identify_signal, windows};
+use host_tests::{Core, RATE, calibrated, identify, identify_changed, identify_signal, windows};
 
 #[test]
 fn a_pattern_is_circular_where_noise_or_rounding_hides_its_angle() {
@@ -30,6 +30,47 @@ fn a_pattern_is_circular_where_noise_or_rounding_hides_its_angle() {
             assert_eq!(
                 estimate.flags, wanted,
                 "{share}, noise {noise}: {estimate:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn noise_that_hides_the_lesser_wave_is_no_misfit() {
+    // Cases of a_B, noise, periods and gain of D. What noise makes of the lesser wave's course must not keep the fit from settling.
+    for (share, noise, periods, gain_ratio) in [
+        (0.92, 0.1, 2, 1.0),
+        (0.92, 0.15, 2, 1.0),
+        (-0.7, 0.2, 3, 1.0),
+        (0.92, 0.1, 5, 1.0),
+        (-0.92, 0.2, 10, 1.0),
+        (0.88, 0.06, 3, 0.35),
+    ] {
+        let flaws = Flaws {
+            gain_ratio,
+            ..Flaws::white(noise)
+        };
+        let settings = calibrated(&flaws, periods);
+        for seed in 0..8 {
+            let wave = Wave {
+                main_amplitude: 1.0,
+                quadrature_amplitude: share,
+                frequency: 9000.0,
+                angle: 0.4 * seed as f64,
+                ..Wave::default()
+            };
+            let found = identify(wave, &flaws, settings, 100_000, seed);
+            let circular = found.iter().filter(|e| e.flags.contains(Flags::CIRCULAR));
+            assert!(circular.count() > found.len() / 2);
+            let is_broken = |e: &&Estimate| e.flags.intersects(Flags::MISFIT.with(Flags::LOST));
+            assert_eq!(found.iter().find(is_broken), None, "{share}, {noise}");
+            // The wave is never given up.
+            let samples = found.iter().map(|e| e.samples).sum::<u32>();
+            assert!(samples > 99_000, "{share}, {noise}: {samples}");
+            let frequency = found.iter().map(|e| e.frequency).sum::<f64>() / found.len() as f64;
+            assert!(
+                (frequency - 9000.0).abs() < 20.0,
+                "{share}, {noise}: {frequency}"
             );
         }
     }

@@ -35,11 +35,10 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let model = self.model.as_ref()?;
         let own = fit.remains.variance();
         let [noise, stated] = self.noise.blended(own, fit.remains.freedom);
-        // Rounding of f32 is an error too, and does not average out; that of offsets does so in part, which part the residual shows.
-        let whole = 1.0 + model.half;
-        let of_offsets = 1.0 + whole / 128.0;
+        // Rounding of f32 is an error too, and does not average out; that of offsets does but for a part, and the residual shows the rest.
         let [c, d] = fit.offsets;
-        let rounding = 1e-14 * (whole * fit.waves.power() + of_offsets * (c * c + d * d));
+        let offsets = c * c + d * d;
+        let rounding = 1e-14 * (offsets + model.half * (fit.waves.power() + offsets / 128.0));
         let least = self.noise.least(noise);
         let coding = Coding::new(&self.settings, [noise, least], model, fit);
         // The squared rounding of a tiny wave is 0 in f32, and 0/0 would be no share.

@@ -39,6 +39,12 @@ const SLOWEST_GROWTH: u16 = 8;
 /// A drift of more variance, rad² per half window squared, is not followed: noise alone would be, to any frequency. Of 115 000 windows in
 /// noise of any strength, 30 more were clean than if all were followed, and 10 fewer of them wrong.
 const MAX_DRIFT_VARIANCE: f32 = 0.25;
+/// Share of both waves' power up to which a wave's course is taken to be noise, before that is known.
+const SMALL: f32 = 1e-4;
+/// What each step adds to it: this times the variance of a wave in the noise then known. After two steps it is that of a circle.
+const HIDDEN: f32 = 9.0;
+/// The most that it may become.
+const MAX_SMALL: f32 = 0.125;
 /// Gauss–Newton steps at most.
 const MAX_STEPS: usize = 6;
 
@@ -109,8 +115,9 @@ impl Model {
         self.step(&gradients, &mut parameters, fit);
         // If blocks have offsets of their own, the linear solution ignores what the waves add to the blocks' means.
         let mut knows_offset = self.shared > 0.0;
+        let mut small = SMALL;
         for _ in 0..MAX_STEPS {
-            fit.waves.choose_courses();
+            fit.waves.choose_courses(small);
             examine(
                 self,
                 blocks,
@@ -127,6 +134,7 @@ impl Model {
                 break;
             }
             knows_offset = true;
+            self.raise_small(fit, &mut small);
         }
         let Parameters { z, slope, .. } = &parameters;
         fit.power = z.map(|z| z.norm_sqr());
@@ -134,6 +142,17 @@ impl Model {
             // At least (|z| + |z′|)²: without a change this is half a per cent more than |z|.
             *reach = 1.01 * fit.power[i] + 101.0 * slope[i].norm_sqr();
         }
+    }
+
+    /// Raises the share of both waves' power up to which noise hides a wave's course: what noise makes of it would not settle, nor would a
+    /// wave at the limit if that did not rise with every step.
+    #[inline(never)]
+    fn raise_small(&self, fit: &Fit, small: &mut f32) {
+        let variance = self.drift_variance(fit);
+        let [gain, share] = self.correction.noise_gains;
+        // A level has a third of the variance of a slope.
+        let hidden = HIDDEN / 3.0 * variance * (1.0 + gain * gain + share * share);
+        *small = lesser(*small + hidden, MAX_SMALL);
     }
 
     /// True when the step that these gradients call for would be lost in the noise, and the noise is far below the wave.

@@ -104,19 +104,19 @@ impl Waves {
     }
 
     /// Decides which changes are exponential: those up to a little more than the wave itself, as the carrier follows the larger wave and
-    /// the smaller one turns by twice as much beside it; for waves as small as noise, up to half of the wave. Growth is allowed less, as
-    /// a wave that breaks off does not decay exponentially.
+    /// the smaller one turns by twice as much beside it; for waves as small as noise, of no more than the share `small` of both waves'
+    /// power, up to half of the wave. Growth is allowed less, as a wave that breaks off does not decay exponentially.
     #[inline(never)]
-    pub(super) fn choose_courses(&mut self) {
-        let small = 0.0001 * self.power();
-        for w in 0..2 {
-            let (value, change) = (self.value[w], self.change[w]);
+    pub(super) fn choose_courses(&mut self, small: f32) {
+        let small = small * self.power();
+        let waves = self.value.iter().zip(&self.change);
+        for ((value, change), slope) in waves.zip(&mut self.slope) {
             let power = value.norm_sqr();
             let max = if power > small { 1.95 } else { 0.25 };
-            let slope = change * value.conj() * (1.0 / power);
+            let found = change * value.conj() * (1.0 / power);
             // False for NaN: a wave whose power has no inverse changes linearly.
-            self.slope[w] = if slope.norm_sqr() + 0.5 * slope.re * slope.re < max {
-                slope
+            *slope = if 1.5 * found.re * found.re + found.im * found.im < max {
+                found
             } else {
                 Complex32::ZERO
             };

@@ -64,6 +64,9 @@ struct WaveOptions {
     #[arg(long, default_value_t = 0.0, value_name = "HZ/S")]
     frequency_rate: f64,
     /// Precession by rotation, rad/s.
+    ///
+    /// Without a split the pattern turns and decays exactly as the rates say. On a resonator, rotation and damping also act together within
+    /// a period: a split of any size, such as --frequency-split 1e-9, adds that.
     #[arg(long, default_value_t = 0.0, value_name = "RAD/S")]
     angle_rate: f64,
     /// Decay of the amplitudes, 1/s; with a split, the mean of both modes.

@@ -40,6 +40,7 @@ mod stated;
 mod step_sizes;
 mod steps;
 mod sums;
+mod survey;
 mod symmetries;
 mod tones;
 mod turning;

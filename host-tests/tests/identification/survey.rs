@@ -111,16 +111,55 @@ fn case(seed: u64) -> Case {
     }
 }
 
-fn identified<S: Sample>(case: &Case, sample: impl Fn(f64) -> S) -> Vec<Estimate>
-where
-    [S; 2]: SamplePair<S>,
-{
-    let gyro = Gyro::new(case.wave, case.flaws.clone(), RATE, case.seed).unwrap();
-    let pairs: Vec<_> = gyro.take(case.samples).map(|p| p.map(&sample)).collect();
-    let mut core = Box::new(Identifier::<S, 256, 256>::new(case.settings).unwrap());
-    let mut found = Vec::new();
-    core.extend(&pairs, |estimate| found.push(estimate));
-    found
+impl Case {
+    /// The samples, and `extra` more.
+    fn pairs(&self, extra: usize) -> Vec<[f64; 2]> {
+        let gyro = Gyro::new(self.wave, self.flaws.clone(), RATE, self.seed).unwrap();
+        gyro.take(self.samples + extra).collect()
+    }
+
+    fn identified(&self, pairs: &[[f64; 2]]) -> Vec<Estimate> {
+        match self.flaws.bits {
+            None => self.identified_as(pairs, |x| x as f32),
+            Some(16) => self.identified_as(pairs, |x| x as i16),
+            Some(_) => self.identified_as(pairs, |x| x as i32),
+        }
+    }
+
+    fn identified_as<S: Sample>(
+        &self,
+        pairs: &[[f64; 2]],
+        sample: impl Fn(f64) -> S,
+    ) -> Vec<Estimate>
+    where
+        [S; 2]: SamplePair<S>,
+    {
+        let pairs: Vec<_> = pairs.iter().map(|pair| pair.map(&sample)).collect();
+        let mut core = Box::new(Identifier::<S, 256, 256>::new(self.settings).unwrap());
+        let mut found = Vec::new();
+        core.extend(&pairs, |estimate| found.push(estimate));
+        found
+    }
+
+    /// Errors of a row in its deviations, if all samples come `later` than they should, s.
+    fn sigmas(&self, estimate: &Estimate, later: f64) -> [f64; 4] {
+        let at_source = Estimate {
+            time: estimate.time - later,
+            ..*estimate
+        };
+        let (errors, stated) = (errors(&at_source, &self.wave), stated(estimate));
+        std::array::from_fn(|i| errors[i].abs() / stated[i])
+    }
+}
+
+fn greatest(sigmas: [f64; 4]) -> f64 {
+    sigmas.into_iter().fold(0.0, f64::max)
+}
+
+/// True if a row has a flag of a fault. Noise may hide the angle, and the first one seen after that is reacquired.
+fn is_faulty(estimate: &Estimate) -> bool {
+    let harmless = Flags::CIRCULAR.with(Flags::REACQUIRED);
+    !estimate.flags.without(harmless).is_empty()
 }
 
 #[test]
@@ -129,36 +168,94 @@ fn clean_rows_are_within_their_deviations_whatever_the_wave_and_the_settings() {
     let (mut worst, mut squares) = ([0f64; 4], [0f64; 4]);
     for seed in 0..1500 {
         let case = case(seed);
-        let found = match case.flaws.bits {
-            None => identified(&case, |x| x as f32),
-            Some(16) => identified(&case, |x| x as i16),
-            Some(_) => identified(&case, |x| x as i32),
-        };
+        let found = case.identified(&case.pairs(0));
         assert!(found.len() >= 4, "{} of {case:?}", found.len());
         for estimate in &found {
             rows += 1;
-            // Noise may hide the angle, and the first one seen after that is reacquired.
-            let faults = estimate
-                .flags
-                .without(Flags::CIRCULAR)
-                .without(Flags::REACQUIRED);
-            assert!(faults.is_empty(), "{estimate:?} of {case:?}");
-            if !estimate.flags.is_empty() {
-                continue;
-            }
-            clean += 1;
-            let each = errors(estimate, &case.wave)
-                .into_iter()
-                .zip(stated(estimate));
-            for (i, (error, stated)) in each.enumerate() {
-                let sigmas = error.abs() / stated;
-                assert!(sigmas < 6.5, "{sigmas} {estimate:?} of {case:?}");
-                worst[i] = worst[i].max(sigmas);
-                squares[i] += sigmas * sigmas;
+            assert!(!is_faulty(estimate), "{estimate:?} of {case:?}");
+            if estimate.flags.is_empty() {
+                clean += 1;
+                let sigmas = case.sigmas(estimate, 0.0);
+                let most = greatest(sigmas);
+                assert!(most < 6.5, "{most} sigma: {estimate:?} of {case:?}");
+                for (i, sigmas) in sigmas.into_iter().enumerate() {
+                    worst[i] = worst[i].max(sigmas);
+                    squares[i] += sigmas * sigmas;
+                }
             }
         }
     }
     let ratios = squares.map(|square| (square / f64::from(clean)).sqrt());
     println!("{clean} of {rows} rows clean, rms error over stated {ratios:.3?}, worst {worst:.1?}");
     assert!(clean > 10_000 && ratios.iter().all(|ratio| (0.95..1.05).contains(ratio)));
+}
+
+#[test]
+fn a_fault_leaves_clean_rows_right_whatever_the_wave_and_the_settings() {
+    let [mut rows, mut clean] = [0u32; 2];
+    for seed in 0..1500 {
+        let case = case(seed);
+        let mut draw = Draw(Random::new(!seed as u32));
+        let at = (case.samples as f64 * draw.between(0.4, 0.6)) as usize;
+        let length = draw.scaled(1.0, case.samples as f64 / 8.0) as usize;
+        let mut pairs = case.pairs(length);
+        let (channel, size) = (draw.one_of(&[0, 1]), draw.scaled(1e-3, 0.3));
+        let (mut end, mut later) = (at, 0);
+        match draw.one_of(&[0, 1, 2, 3, 4]) {
+            // Pairs are missing.
+            0 => {
+                pairs.drain(at..at + length);
+                later = -(length as i64);
+            }
+            // Pairs come twice.
+            1 => {
+                let again = pairs[at - length.min(at)..at].to_vec();
+                later = again.len() as i64;
+                pairs.splice(at..at, again);
+            }
+            // A pick-off, or both, keep their values.
+            kind @ (2 | 3) => {
+                end = at + length;
+                let held = pairs[at];
+                for pair in &mut pairs[at..end] {
+                    pair[channel] = held[channel];
+                    if kind == 3 {
+                        *pair = held;
+                    }
+                }
+            }
+            // An offset steps.
+            _ => {
+                let step = size * case.wave.main_amplitude;
+                let step = case.flaws.bits.map_or(step, |_| step.round());
+                for pair in &mut pairs[at..] {
+                    pair[channel] += step;
+                }
+            }
+        }
+        let later = later as f64 / RATE;
+        for estimate in case.identified(&pairs) {
+            let is_before = estimate.end() <= at as u64;
+            let is_after = estimate.start >= end as u64;
+            assert!(
+                !is_before || !is_faulty(&estimate),
+                "{estimate:?} of {case:?}"
+            );
+            rows += u32::from(is_after);
+            if !estimate.flags.is_empty() {
+                continue;
+            }
+            clean += u32::from(is_after);
+            let [before, after] = [0.0, later].map(|later| greatest(case.sigmas(&estimate, later)));
+            let (off, most) = match (is_before, is_after) {
+                (true, _) => (before, 6.5),
+                (_, true) => (after, 6.5),
+                // A fault too small for a flag.
+                _ => (before.min(after), 20.0),
+            };
+            assert!(off < most, "{off} sigma: {estimate:?} of {case:?}");
+        }
+    }
+    println!("{clean} of {rows} rows after a fault are clean");
+    assert!(clean > 9 * rows / 10 && rows > 20_000);
 }

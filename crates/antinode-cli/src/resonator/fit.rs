@@ -20,6 +20,8 @@ use crate::runs::{EXPLAINED, Run};
 const MIN_SPREAD: f64 = 0.005;
 /// Steps, at most; ten are usual.
 const STEPS: usize = 100;
+/// The same with the turning by amplitudes: where that explains the rows, ten are enough.
+const NONLINEAR_STEPS: usize = 30;
 /// Reduction of the squared residual, in squares of the stated deviations, below which a step is the last: it moves by less than a
 /// hundredth of one.
 const SETTLED: f64 = 1e-4;
@@ -161,7 +163,12 @@ pub fn settle(runs: &[Run], model: Model, mut values: DVector<f64>) -> Option<Fo
     let mut normal = Normal::of(runs, model, &values);
     let mut damping = 1e-3;
     let mut limit = SETTLED;
-    for _ in 0..STEPS {
+    let most = if model.kind == Kind::Nonlinear {
+        NONLINEAR_STEPS
+    } else {
+        STEPS
+    };
+    for _ in 0..most {
         let whole = normal.step(0.0)?;
         if normal.equations.right().dot(&whole) < limit * normal.widening(&values) {
             let values = values + whole;

@@ -96,10 +96,8 @@ impl Waves {
             let turned = Complex32::new(-d.im, d.re);
             [c + turned, c - turned]
         };
-        // Channel D is sampled later, and so sees the wave that much further along its course.
-        let [c, d] = parameters.z;
-        let d = d - parameters.slope[1] * (correction.delay * model.per_half);
-        self.value = travelling([c, d]);
+        // That D is sampled later, and so sees the wave further along its course, is part of what is predicted: the next step takes it out.
+        self.value = travelling(parameters.z);
         self.change = travelling(parameters.slope);
     }
 

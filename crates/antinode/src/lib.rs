@@ -146,10 +146,10 @@
 //! to 4·10⁻⁷ of larger offsets: with as little noise as that, they exceed the scatter. Rounding adds up to 8·10⁻⁶ of a_A, or 5·10⁻⁶ of a
 //! larger offset, to `residual_rms`. The bound is that of seven constant parameters, offsets and frequency among them.
 //!
-//! In 58 500 streams of 2.9 million windows, whose waves, noise, offsets, pick-offs, converters and settings were drawn at random, rms
+//! In 58 500 streams of 3.0 million windows, whose waves, rates, noise, offsets, pick-offs, converters and settings were drawn at random, rms
 //! errors were 0.99 of the deviations, no clean row was off by more than 6.3 of them, and five rows were flagged without a fault, all in
 //! windows of 16 to 18 pairs in noise of 10 % and more. In 38 500 more with a fault halfway, clean rows that contain it were off by up to 16
-//! deviations, those before and after by up to 6.5. These numbers are asserted, with a margin, by the tests of `host-tests`: the last ones
+//! deviations, those before and after by up to 6.3. These numbers are asserted, with a margin, by the tests of `host-tests`: the last ones
 //! for 1500 streams each, in `survey.rs`.
 //!
 //! # Limits

@@ -3,7 +3,7 @@
 use antinode::{Flags, Identifier};
 use antinode_sim::{Flaws, Gyro, Wave, random_wave};
 use host_tests::codes::{self, converted};
-use host_tests::score::{errors, stated};
+use host_tests::score::{StatedRatio, errors, stated};
 use host_tests::{RATE, identify, windows};
 
 #[test]
@@ -92,7 +92,7 @@ fn deviations_of_f32_exceed_the_errors_by_no_more_than_rounding_of_an_offset_nee
         (5332.0, 10, 40.0, 2e-5, 60, 0.7..1.0),
         (5332.0, 100, 40.0, 1e-4, 60, 0.95..1.1),
     ] {
-        let (mut squares, mut rows) = ([0.0; 4], 0.0);
+        let (mut score, mut rows) = (StatedRatio::default(), 0);
         for seed in 0..seeds {
             let wave = random_wave(seed, frequency, 0.3);
             let flaws = Flaws {
@@ -107,17 +107,14 @@ fn deviations_of_f32_exceed_the_errors_by_no_more_than_rounding_of_an_offset_nee
             let mut core = Identifier::<f32, 256, 1024>::new(windows(periods)).unwrap();
             core.extend(&pairs, |estimate| {
                 assert_eq!(estimate.flags, Flags::empty());
-                rows += 1.0;
-                let each = errors(&estimate, &wave).into_iter().zip(stated(&estimate));
-                for (square, (error, stated)) in squares.iter_mut().zip(each) {
-                    *square += (error / stated).powi(2);
-                }
+                rows += 1;
+                score.add(&estimate, &wave);
             });
         }
-        let ratios = squares.map(|square| f64::sqrt(square / rows));
+        let ratios = score.ratios();
         println!("{frequency} Hz, {periods} periods, {offset} a_A, noise {noise}: {ratios:.3?}");
         let most = ratios.into_iter().fold(0.0, f64::max);
-        assert!(within.contains(&most) && rows > 150.0, "{most}, {rows}");
+        assert!(within.contains(&most) && rows > 150, "{most}, {rows}");
     }
 }
 

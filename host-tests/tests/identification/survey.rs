@@ -7,7 +7,7 @@ use host_tests::random::Random;
 use host_tests::score::{errors, stated};
 use host_tests::{RATE, windows};
 
-/// Windows of a stream, at most.
+/// Windows of a stream, about.
 const WINDOWS: f64 = 6.0;
 
 /// A stream, and how it is identified.
@@ -157,8 +157,10 @@ impl Case {
     }
 }
 
+/// The greatest, or infinity if one is not a number.
 fn greatest(sigmas: [f64; 4]) -> f64 {
-    sigmas.into_iter().fold(0.0, f64::max)
+    let numbers = sigmas.map(|one| if one.is_nan() { f64::INFINITY } else { one });
+    numbers.into_iter().fold(0.0, f64::max)
 }
 
 /// True if a row has a flag of a fault. Noise may hide the angle, and the first one seen after that is reacquired.

@@ -44,7 +44,7 @@ const SMALL: f32 = 1e-4;
 /// What each step adds to it: this times the variance of a wave in the noise then known. After two steps it is that of a circle.
 const HIDDEN: f32 = 9.0;
 /// The most that it may become.
-const MAX_SMALL: f32 = 0.125;
+const MAX_SMALL: f32 = 0.25;
 /// Gauss–Newton steps at most.
 const MAX_STEPS: usize = 6;
 

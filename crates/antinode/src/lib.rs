@@ -147,8 +147,8 @@
 //! larger offset, to `residual_rms`. The bound is that of seven constant parameters, offsets and frequency among them.
 //!
 //! In 58 500 streams of 3.0 million windows, whose waves, rates, noise, offsets, pick-offs, converters and settings were drawn at random, rms
-//! errors were 0.99 of the deviations, no clean row was off by more than 6.3 of them, and five rows were flagged without a fault, all in
-//! windows of 16 to 18 pairs in noise of 10 % and more. In 38 500 more with a fault halfway, clean rows that contain it were off by up to 16
+//! errors were 0.99 of the deviations, no clean row was off by more than 6.3 of them, and four rows were flagged without a fault, all in
+//! windows of 18 pairs in noise of 10 % and more. In 38 500 more with a fault halfway, clean rows that contain it were off by up to 16
 //! deviations, those before and after by up to 6.3. These numbers are asserted, with a margin, by the tests of `host-tests`: the last ones
 //! for 1500 streams each, in `survey.rs`.
 //!

@@ -1,10 +1,10 @@
 //! Accuracy with next to no noise is limited by rounding, which the deviations include.
 
 use antinode::{Flags, Identifier};
-use antinode_sim::{Flaws, Gyro, Wave, random_wave};
+use antinode_sim::{Flaws, Wave, random_wave};
 use host_tests::codes::{self, converted};
 use host_tests::score::{StatedRatio, errors, stated};
-use host_tests::{RATE, identify, windows};
+use host_tests::{RATE, identify, stream, windows};
 
 #[test]
 fn stated_deviations_hold_if_there_is_only_rounding() {
@@ -102,8 +102,7 @@ fn deviations_of_f32_exceed_the_errors_by_no_more_than_rounding_of_an_offset_nee
                 ..Flaws::default()
             };
             let samples = (f64::from(periods) * 4.5 * RATE / frequency) as usize + 800;
-            let gyro = Gyro::new(wave, flaws, RATE, seed).unwrap();
-            let pairs: Vec<_> = gyro.take(samples).map(|p| p.map(|x| x as f32)).collect();
+            let pairs = stream(wave, flaws, samples, seed);
             let mut core = Identifier::<f32, 256, 1024>::new(windows(periods)).unwrap();
             core.extend(&pairs, |estimate| {
                 assert_eq!(estimate.flags, Flags::empty());

@@ -1,11 +1,11 @@
 //! Waves, flaws, settings and arithmetic drawn at random: no clean row is off, and nothing is flagged that is no fault.
 
-use antinode::{Calibration, Estimate, Flags, Identifier, Sample, SamplePair, Settings};
+use antinode::{Calibration, Estimate, Flags, Settings};
 use antinode_sim::{Flaws, Gyro, Wave, random_wave};
-use host_tests::codes::converted;
+use host_tests::codes::{self, converted};
 use host_tests::random::Random;
 use host_tests::score::{errors, stated};
-use host_tests::{RATE, windows};
+use host_tests::{RATE, identify_parts, windows};
 
 /// Windows of a stream, about.
 const WINDOWS: f64 = 6.0;
@@ -98,9 +98,8 @@ fn case(seed: u64) -> Case {
         let offsets = flaws.offset_c.abs().max(flaws.offset_d.abs());
         let peak = 1.4 * a * flaws.gain_ratio.max(1.0) + offsets + 6.0 * flaws.noise;
         (wave, flaws) = converted(&wave, &flaws, bits, a / peak);
-        let scale = flaws.full_scale as f32;
-        settings.rails = Some([-scale, scale - 1.0]);
-        settings.resolution = Some(1.0);
+        let coded = codes::settings(bits, periods);
+        (settings.rails, settings.resolution) = (coded.rails, coded.resolution);
     }
     Case {
         seed,
@@ -119,26 +118,16 @@ impl Case {
     }
 
     fn identified(&self, pairs: &[[f64; 2]]) -> Vec<Estimate> {
-        match self.flaws.bits {
-            None => self.identified_as(pairs, |x| x as f32),
-            Some(16) => self.identified_as(pairs, |x| x as i16),
-            Some(_) => self.identified_as(pairs, |x| x as i32),
+        let Some(bits) = self.flaws.bits else {
+            let pairs: Vec<_> = pairs.iter().map(|p| p.map(|x| x as f32)).collect();
+            return identify_parts(&[&pairs], self.settings);
+        };
+        let pairs: Vec<_> = pairs.iter().map(|p| p.map(|x| x as i32)).collect();
+        if bits > 16 {
+            codes::identify(&pairs, self.settings, |code| code)
+        } else {
+            codes::identify(&pairs, self.settings, |code| code as i16)
         }
-    }
-
-    fn identified_as<S: Sample>(
-        &self,
-        pairs: &[[f64; 2]],
-        sample: impl Fn(f64) -> S,
-    ) -> Vec<Estimate>
-    where
-        [S; 2]: SamplePair<S>,
-    {
-        let pairs: Vec<_> = pairs.iter().map(|pair| pair.map(&sample)).collect();
-        let mut core = Box::new(Identifier::<S, 256, 256>::new(self.settings).unwrap());
-        let mut found = Vec::new();
-        core.extend(&pairs, |estimate| found.push(estimate));
-        found
     }
 
     /// Errors of a row in its deviations, if all samples come `later` than they should, s; 0 for the frequency of a turning pattern before

@@ -1,7 +1,8 @@
 //! General tests of one window's residuals, by themselves and against the noise of the windows before.
 //!
 //! Thresholds are set for fewer than 10⁻⁹ false alarms a window in white noise, about 10⁻⁵ in a first window of 10 to 25 sample pairs (more
-//! near six samples a period, where sums about the third harmonic are nearly real), plus a floor below which a deviation is no fault.
+//! near six samples a period, where sums about the third harmonic are nearly real), plus a floor below which a deviation is no fault. Where
+//! noise alone may seem to change the wave by a_A, as 20 % in windows of 22 pairs, there are 3·10⁻⁵.
 
 use super::noise::{FIRST_NOISE_SIGMAS, MAX_RISE, NOISE_SIGMAS, Noise, is_louder, limit_of};
 use super::standing::Standing;

@@ -1,47 +1,48 @@
 //! Straight lines through values at times, by least squares.
 
 /// Weighted times.
-pub struct Times {
-    /// Weights, and times relative to their mean.
-    about: Vec<[f64; 2]>,
+pub struct Times<T> {
+    /// Weights and times.
+    weighted: T,
     weight: f64,
-    /// Weighted sum of the squares of these times.
+    mean: f64,
+    /// Weighted sum of the squares of the times, relative to their mean.
     pub along: f64,
 }
 
-impl Times {
+impl<T: Iterator<Item = [f64; 2]> + Clone> Times<T> {
     /// Takes weights and times.
-    pub fn new(weighted: impl Iterator<Item = [f64; 2]>) -> Self {
-        let mut about: Vec<_> = weighted.collect();
-        let (weight, sum) = about.iter().fold((0.0, 0.0), |(all, sum), [weight, time]| {
-            (all + weight, sum + weight * time)
-        });
-        for [_, time] in &mut about {
-            *time -= sum / weight;
-        }
-        let along = about
-            .iter()
-            .map(|[weight, time]| weight * time * time)
-            .sum();
+    pub fn new(weighted: T) -> Self {
+        let (weight, sum) = weighted
+            .clone()
+            .fold((0.0, 0.0), |(all, sum), [weight, time]| {
+                (all + weight, sum + weight * time)
+            });
+        let mean = sum / weight;
+        let squares = weighted
+            .clone()
+            .map(|[weight, time]| weight * (time - mean) * (time - mean));
         Self {
-            about,
+            along: squares.sum(),
+            weighted,
             weight,
-            along,
+            mean,
         }
     }
 
     /// The line through values at these times: its slope, and the weighted sum of the squares that it leaves.
     pub fn line(&self, values: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
-        let about = self.about.iter().zip(values);
+        let about = self.weighted.clone().zip(values);
+        let about = about.map(|([weight, time], value)| (weight, time - self.mean, value));
         let (sum, product) =
             about
                 .clone()
-                .fold((0.0, 0.0), |(sum, product), ([weight, time], value)| {
+                .fold((0.0, 0.0), |(sum, product), (weight, time, value)| {
                     (sum + weight * value, product + weight * time * value)
                 });
         let (mean, slope) = (sum / self.weight, product / self.along);
         let left =
-            about.map(|([weight, time], value)| weight * (value - mean - slope * time).powi(2));
+            about.map(|(weight, time, value)| weight * (value - mean - slope * time).powi(2));
         (slope, left.sum())
     }
 }

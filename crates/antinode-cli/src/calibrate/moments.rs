@@ -103,7 +103,7 @@ impl Moment {
         let [d, c] = corrected.noise_gains();
         Self {
             time: row.time,
-            raw: corrected.distort(ideal, omega),
+            raw: corrected.at(omega).distort(ideal),
             omega,
             // At any pattern angle, both amplitudes together have the noise of both ideal pick-offs.
             variance: (of_main.powi(2) + of_quadrature.powi(2)) / (1.0 + c * c + d * d),
@@ -114,7 +114,7 @@ impl Moment {
 
     /// The pattern angle if the pick-offs are these, rad, modulo π/2.
     fn angle(&self, pick_offs: &PickOffs) -> f64 {
-        let [plus, minus] = waves(pick_offs.correct(self.raw, self.omega));
+        let [plus, minus] = waves(pick_offs.at(self.omega).correct(self.raw));
         0.25 * (minus * plus.conj()).arg()
     }
 
@@ -123,14 +123,14 @@ impl Moment {
     /// The identification takes each travelling wave to turn evenly within a window. With a wrong calibration each shows some of the other,
     /// and does not: what is identified is the mean of its logarithm over the window, here by Simpson's rule.
     fn ideal(&self, pick_offs: &PickOffs, turn: f64) -> [Complex<f64>; 2] {
-        let true_waves = waves(pick_offs.correct(self.raw, self.omega));
+        let [pick_offs, corrected] = [pick_offs, &self.corrected].map(|these| these.at(self.omega));
+        let true_waves = waves(pick_offs.correct(self.raw));
         // As the window shows them when the pattern stands further by this angle.
         let shown = |by: f64| {
             let [plus, minus] = true_waves;
             let turned = Complex::from_polar(1.0, 2.0 * by);
             let ideal = phasors([plus * turned, minus * turned.conj()]);
-            let raw = pick_offs.distort(ideal, self.omega);
-            waves(self.corrected.correct(raw, self.omega))
+            waves(corrected.correct(pick_offs.distort(ideal)))
         };
         let [before, middle, after] = [-0.5, 0.0, 0.5].map(|part| shown(part * turn));
         let momentary = [0, 1].map(|i| {
@@ -143,8 +143,7 @@ impl Moment {
                     1.0.into()
                 }
         });
-        let raw = self.corrected.distort(phasors(momentary), self.omega);
-        pick_offs.correct(raw, self.omega)
+        pick_offs.correct(corrected.distort(phasors(momentary)))
     }
 }
 
@@ -177,7 +176,7 @@ mod tests {
         let one = Complex::new(1.0, 0.0);
         let zero = Complex::new(0.0, 0.0);
         let gains = [[one, zero], [zero, one]].map(|raw| {
-            let [c, d] = corrected.correct(raw, 1.0);
+            let [c, d] = corrected.at(1.0).correct(raw);
             c.norm_sqr() + d.norm_sqr()
         });
         let of_both = (0.5 * (gains[0] + gains[1])).sqrt();

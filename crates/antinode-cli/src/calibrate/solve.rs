@@ -73,24 +73,40 @@ impl PickOffs {
             .all(|(flaw, tolerance)| flaw.abs() <= tolerance)
     }
 
-    /// Converts phasors of ideal pick-offs to those that these show.
-    pub fn distort(&self, [c, d]: [Complex<f64>; 2], omega: f64) -> [Complex<f64>; 2] {
+    /// These pick-offs at 2πf, rad/s.
+    pub fn at(&self, omega: f64) -> PickOffsAt {
         let (sine, cosine) = (2.0 * self.angle).sin_cos();
-        let lag = Complex::from_polar(self.gain_ratio, omega * self.skew);
-        [c, lag * (d * cosine - c * sine)]
-    }
-
-    /// Converts phasors that these pick-offs show to those of ideal ones.
-    pub fn correct(&self, [c, d]: [Complex<f64>; 2], omega: f64) -> [Complex<f64>; 2] {
-        let (sine, cosine) = (2.0 * self.angle).sin_cos();
-        let lag = Complex::from_polar(self.gain_ratio, omega * self.skew);
-        [c, (d / lag + c * sine) / cosine]
+        PickOffsAt {
+            lag: Complex::from_polar(self.gain_ratio, omega * self.skew),
+            sine,
+            cosine,
+        }
     }
 
     /// Factors of the noise of pick-off D, and of C, in an ideal D.
     pub fn noise_gains(&self) -> [f64; 2] {
         let (sine, cosine) = (2.0 * self.angle).sin_cos();
         [1.0 / (self.gain_ratio * cosine), sine / cosine]
+    }
+}
+
+/// Pick-offs at one frequency.
+#[derive(Clone, Copy)]
+pub struct PickOffsAt {
+    lag: Complex<f64>,
+    sine: f64,
+    cosine: f64,
+}
+
+impl PickOffsAt {
+    /// Converts phasors of ideal pick-offs to those that these show.
+    pub fn distort(&self, [c, d]: [Complex<f64>; 2]) -> [Complex<f64>; 2] {
+        [c, self.lag * (d * self.cosine - c * self.sine)]
+    }
+
+    /// Converts phasors that these pick-offs show to those of ideal ones.
+    pub fn correct(&self, [c, d]: [Complex<f64>; 2]) -> [Complex<f64>; 2] {
+        [c, (d / self.lag + c * self.sine) / self.cosine]
     }
 }
 

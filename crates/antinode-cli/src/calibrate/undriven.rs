@@ -28,11 +28,13 @@ pub fn without_driven(
     corrected: &PickOffs,
     (all, residual): (PickOffs, f64),
 ) -> Option<(Found, [Vec<runs::Run>; 2])> {
-    let without = |pick_offs: &PickOffs| {
+    let parts_by = |pick_offs: &PickOffs| {
         let energies: Vec<_> = every.iter().map(|run| run.energies(pick_offs)).collect();
-        let parts = undriven(runs, &energies, 0.0);
-        let found = solve(&moments(&parts[0], corrected), *pick_offs).ok()?;
-        Some((found, parts))
+        undriven(runs, &energies, 0.0)
+    };
+    let solved = |[decaying, _]: &[Vec<runs::Run>; 2], start| {
+        let moments = moments(decaying, corrected);
+        solve(&moments, start).ok()
     };
     // Driven rows spoil the calibration that is to reveal them; that from a part without any makes most parts decay evenly.
     let parts: Vec<_> = every.iter().flat_map(|run| run.parts(PARTS)).collect();
@@ -43,13 +45,20 @@ pub fn without_driven(
         .chain([all])
         .map(|pick_offs| (pick_offs, median_unevenness(&parts, &pick_offs)))
         .min_by(|(_, one), (_, other)| one.total_cmp(other));
-    let mut found = without(&rough?.0)?;
+    let (rough, _) = rough?;
+    let mut divided = parts_by(&rough);
+    let mut found = solved(&divided, rough)?;
     for _ in 0..REPETITIONS {
-        found = without(&found.0.pick_offs)?;
+        let again = parts_by(&found.pick_offs);
+        if again == divided {
+            break;
+        }
+        divided = again;
+        found = solved(&divided, found.pick_offs)?;
     }
-    let is_better = found.0.residual < BEYOND_NOISE.max(MAX_RESIDUAL_SHARE * residual);
-    let [_, driven] = &found.1;
-    (is_better && !driven.is_empty()).then_some(found)
+    let is_better = found.residual < BEYOND_NOISE.max(MAX_RESIDUAL_SHARE * residual);
+    let [_, driven] = &divided;
+    (is_better && !driven.is_empty()).then_some((found, divided))
 }
 
 /// How unevenly energy decays in runs if the pick-offs are these: the median of the mean squared residuals, over the moments' own

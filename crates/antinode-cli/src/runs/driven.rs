@@ -111,9 +111,9 @@ pub fn unevenness(energies: &[Energy]) -> f64 {
     Line::through(energies, 0.0).misfit
 }
 
-/// The place where energies change from driven to decaying or back, if there is one.
-fn bend(energies: &[Energy], by_flaws: f64) -> Option<usize> {
-    let mut side = MIN_ROWS;
+/// The place where energies change from driven to decaying or back, if there is one, and the rows a side in which it shows; fewer than
+/// `side` are not tried.
+fn bend(energies: &[Energy], mut side: usize, by_flaws: f64) -> Option<(usize, usize)> {
     loop {
         // The bend itself may lie anywhere between both sides.
         let apart = (side / 8).max(1);
@@ -126,7 +126,7 @@ fn bend(energies: &[Energy], by_flaws: f64) -> Option<usize> {
             let before = Line::through(&about[..side], by_flaws);
             let after = Line::through(&about[whole - side..], by_flaws);
             if before.is_driven_unlike(&after) || after.is_driven_unlike(&before) {
-                return Some(from + corner(about, side / 2));
+                return Some((from + corner(about, side / 2), side));
             }
         }
         side *= 2;
@@ -159,13 +159,13 @@ fn corner(energies: &[Energy], end: usize) -> usize {
 pub fn undriven(runs: &[Run], energies: &[Vec<Energy>], by_flaws: f64) -> [Vec<Run>; 2] {
     let mut parts = Vec::new();
     for (run, energies) in runs.iter().zip(energies) {
-        let mut left: Vec<_> = std::iter::once(0..run.rows.len()).collect();
-        while let Some(range) = left.pop() {
-            match bend(&energies[range.clone()], by_flaws) {
-                // The row at the bend may hold some of both.
-                Some(at) => left.extend([
-                    range.start + at + 1..range.end,
-                    range.start..range.start + at,
+        let mut left = vec![(0..run.rows.len(), MIN_ROWS)];
+        while let Some((range, side)) = left.pop() {
+            match bend(&energies[range.clone()], side, by_flaws) {
+                // The row at the bend may hold some of both; with fewer rows a side, the whole range shows none.
+                Some((at, side)) => left.extend([
+                    (range.start + at + 1..range.end, side),
+                    (range.start..range.start + at, side),
                 ]),
                 None if range.len() >= MIN_ROWS => parts.push((run, energies, range)),
                 None => {}
@@ -264,9 +264,52 @@ mod tests {
                     let later = time - at;
                     [before * later.min(0.0) + after * later.max(0.0), 0.3]
                 });
-                let bend = bend(&found, 0.3).unwrap() as f64;
+                let bend = bend(&found, MIN_ROWS, 0.3).unwrap().0 as f64;
                 assert!((bend - at).abs() < 3.0, "{before}, {after}, {at}: {bend}");
             }
+        }
+    }
+
+    #[test]
+    fn ring_downs_of_any_length_are_parted_from_the_drives_between_them() {
+        for seed in 0..60 {
+            let mut random = Deviates(seed);
+            // Rows at which a decay or drive begins, from 250 to 2500 rows later each.
+            let mut begins = vec![0];
+            for _ in 0..8 {
+                let length = 250.0 * random.draw().abs().exp().min(10.0);
+                begins.push(begins[begins.len() - 1] + length as usize);
+            }
+            let mut logs = vec![0.0];
+            for (index, part) in begins.windows(2).enumerate() {
+                // A slow decay, whose end only many rows show, and faster ones.
+                let rate = match index {
+                    0 => -2e-5,
+                    1 | 3 | 5 | 7 => [0.0, 3e-3][(seed % 2) as usize],
+                    _ => -2e-3,
+                };
+                for _ in part[0]..part[1] {
+                    logs.push(logs[logs.len() - 1] + rate);
+                }
+            }
+            let energies = energies(logs.len(), seed, |time| [logs[time as usize], 0.3]);
+            let run = Run {
+                rows: (0..logs.len())
+                    .map(|k| Row::of(k as f64, [1.0, 0.0, 0.0], [1e-3; 3]))
+                    .collect(),
+                file: "a".to_owned(),
+            };
+            let found = undriven(&[run], &[energies], 0.3);
+            for (index, part) in begins.windows(2).enumerate() {
+                let spans = found[index % 2].iter();
+                let spans = spans.map(|run| [run.rows[0].time, run.rows[run.rows.len() - 1].time]);
+                let is_found = spans.clone().any(|[from, to]| {
+                    (from - part[0] as f64).abs() < 30.0 && (to - part[1] as f64).abs() < 30.0
+                });
+                let spans: Vec<_> = spans.collect();
+                assert!(is_found, "{seed}: {part:?} of {begins:?} in {spans:?}");
+            }
+            assert_eq!(found.map(|runs| runs.len()), [4, 4]);
         }
     }
 
@@ -291,7 +334,7 @@ mod tests {
                     angle,
                 ]
             });
-            assert_eq!(bend(&found, 0.3), None, "{seed}");
+            assert_eq!(bend(&found, MIN_ROWS, 0.3), None, "{seed}");
         }
     }
 }

@@ -29,7 +29,7 @@ const PHASE: &str = "phase_rad";
 pub const BOWS: usize = 3;
 
 /// The values of a row.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Row {
     /// Time of the window's middle, s.
     pub time: f64,

@@ -6,7 +6,7 @@ use super::{Row, turn};
 const MIN_DISTANCE: f64 = 0.97;
 
 /// A span of rows without a break.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Run {
     pub rows: Vec<Row>,
     /// Name of the recording, as in its rows.

@@ -56,7 +56,7 @@ fn run_at(
         .into_iter()
         .enumerate()
         .map(|(index, ideal)| {
-            let mut raw = pick_offs.distort(ideal, omega);
+            let mut raw = pick_offs.at(omega).distort(ideal);
             for z in &mut raw {
                 *z += Complex::new(random.draw(), random.draw()) * noise;
             }
@@ -285,7 +285,7 @@ fn variances_are_those_that_noise_on_raw_phasors_causes() {
             angle,
         };
         let ideal = [Complex::new(0.6, -0.1), Complex::new(-0.4, 0.3)];
-        let raw = pick_offs.distort(ideal, omega);
+        let raw = pick_offs.at(omega).distort(ideal);
         let mut squares = [0.0; 2];
         for (part, by) in [0, 1]
             .into_iter()
@@ -294,7 +294,7 @@ fn variances_are_those_that_noise_on_raw_phasors_causes() {
             let [less, more] = [-step, step].map(|step| {
                 let mut raw = raw;
                 raw[part] += by * step;
-                let [energy, _, _, q] = shares(pick_offs.correct(raw, omega));
+                let [energy, _, _, q] = shares(pick_offs.at(omega).correct(raw));
                 [energy.ln(), q]
             });
             for (square, (less, more)) in squares.iter_mut().zip(less.into_iter().zip(more)) {

@@ -4,7 +4,7 @@ use nalgebra::DVector;
 
 use super::SIGNIFICANT;
 use super::curve::MAX_IN_TIME;
-use super::fit::settle;
+use super::fit::settle_from;
 use super::found::Found;
 use super::model::{Damping, Model};
 use super::normal::Normal;
@@ -58,20 +58,20 @@ fn changed(runs: &[Run], from: &Found, damping: Damping, least: f64) -> Option<(
         ..from.model
     };
     let values = model.values_from(from.model, &from.values, runs.len());
-    let seen = seen(runs, model, &values)?;
+    let normal = Normal::of(runs, model, &values);
+    let seen = seen(&normal, (model, runs.len()), &values)?;
     if seen < least {
         return None;
     }
     let found = Found {
         unseen_turning: from.unseen_turning,
-        ..settle(runs, model, values)?
+        ..settle_from(runs, model, values, normal)?
     };
     Some((found, seen))
 }
 
 /// Deviations by which a step from these values moves the last unknown of a damping, at most in any run.
-fn seen(runs: &[Run], model: Model, values: &DVector<f64>) -> Option<f64> {
-    let normal = Normal::of(runs, model, values);
+fn seen(normal: &Normal, (model, runs): (Model, usize), values: &DVector<f64>) -> Option<f64> {
     let factors = normal.equations.factors(0.0)?;
     let step = factors.solve(normal.equations.right());
     let widening = normal.widening(values);
@@ -84,7 +84,7 @@ fn seen(runs: &[Run], model: Model, values: &DVector<f64>) -> Option<f64> {
         Damping::ByEnergy => Some(seen(model.by_energy_at())),
         Damping::InTime(curves) => {
             let last = |run| model.curves_at(run) + curves - 1;
-            (0..runs.len()).map(|run| seen(last(run))).reduce(f64::max)
+            (0..runs).map(|run| seen(last(run))).reduce(f64::max)
         }
     }
 }

@@ -159,9 +159,19 @@ pub(super) fn is_known(
 }
 
 /// Minimises the squares of the residual, from these values on.
-pub fn settle(runs: &[Run], model: Model, mut values: DVector<f64>) -> Option<Found> {
-    let mut normal = Normal::of(runs, model, &values);
-    let mut damping = 1e-3;
+pub fn settle(runs: &[Run], model: Model, values: DVector<f64>) -> Option<Found> {
+    let normal = Normal::of(runs, model, &values);
+    settle_from(runs, model, values, normal)
+}
+
+/// The same, with the normal equations about these values.
+pub fn settle_from(
+    runs: &[Run],
+    model: Model,
+    mut values: DVector<f64>,
+    mut normal: Normal,
+) -> Option<Found> {
+    let mut damping = 1e-4;
     let mut limit = SETTLED;
     let most = if model.kind == Kind::Nonlinear {
         NONLINEAR_STEPS

@@ -89,8 +89,8 @@ impl Normal {
                 });
                 squares += rest * rest;
                 self.neighbours += rest * std::mem::replace(&mut before[index], rest);
-                right += line * rest;
-                matrix += line * line.transpose();
+                right.axpy(rest, &line, 1.0);
+                matrix.ger(1.0, &line, &line, 1.0);
             }
             for (sum, share) in shares.iter_mut().zip(motion.shares()) {
                 *sum += share / run.rows.len() as f64;

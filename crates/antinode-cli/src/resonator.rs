@@ -10,6 +10,7 @@ mod found;
 mod frequency;
 mod gaps;
 mod informing;
+mod joined;
 mod model;
 pub mod motion;
 mod normal;

@@ -11,6 +11,7 @@ use super::changing::changing;
 use super::chords;
 use super::found::Found;
 use super::gaps;
+use super::joined::joined;
 use super::model::{Kind, Model};
 use super::normal::Normal;
 use super::start::start;
@@ -34,8 +35,29 @@ const KNOWN: [f64; 2] = [0.2, 1.0];
 /// The same for the split of frequency, as a share of what is seen of it.
 const KNOWN_REL: f64 = 0.1;
 
-/// Finds the resonator whose waves come nearest to the rows; `None` if the steps do not converge.
+/// Finds the resonator whose waves come nearest to the rows; `None` if the steps do not converge. Which model explains many rows, their
+/// means tell.
 pub fn fit(runs: &[Run]) -> Option<Found> {
+    let rough = joined(runs).and_then(|joined| fit_all(&joined));
+    rough
+        .and_then(|rough| settled(runs, rough))
+        .or_else(|| fit_all(runs))
+}
+
+/// A fit to the means of rows, settled in the rows themselves; `None` if it explains the means only.
+fn settled(runs: &[Run], rough: Found) -> Option<Found> {
+    let straightened = rough.model.is_unsteady().then(|| chords::through(runs));
+    let runs = straightened.as_deref().unwrap_or(runs);
+    let is_explained = rough.is_explained();
+    let found = Found {
+        unseen_turning: rough.unseen_turning,
+        ..settle(runs, rough.model, rough.values)?
+    };
+    (found.is_explained() || !is_explained).then_some(found)
+}
+
+/// Finds the resonator with a fit to all rows.
+fn fit_all(runs: &[Run]) -> Option<Found> {
     let steady = steady(runs).map(|found| changing(runs, found));
     if steady.as_ref().is_some_and(Found::is_explained) {
         return steady;

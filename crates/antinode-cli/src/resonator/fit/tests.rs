@@ -3,6 +3,7 @@
 mod damping;
 mod frequency;
 mod gaps;
+mod joined;
 mod known;
 mod stiffness;
 mod unsteady;

@@ -14,29 +14,28 @@ mod joined;
 mod model;
 pub mod motion;
 mod normal;
+mod notes;
 mod quantities;
 mod start;
 mod stretches;
 
 use std::f64::consts::PI;
-use std::io::{self, Write};
+use std::io;
 
 use antinode::Flags;
 use clap::Args;
 
-use crate::digits::counted;
 use crate::failure::Failure;
 use crate::given_rows::GivenRows;
 use crate::options::Format;
 use crate::runs::driven::{self, undriven};
-use crate::runs::{BEYOND_NOISE, Run, Runs, turn};
+use crate::runs::{Run, Runs};
 use crate::serialized;
-use by_energy::ByEnergy;
 use fit::fit;
 use found::Found;
 use frequency::{Frequency, frequency};
 use informing::informing;
-use model::Damping;
+use notes::write_notes;
 use quantities::{HELP, Row, quantities, table};
 
 /// Turn of the pattern from row to row, at most, rad: half of that up to which the angle is unambiguous.
@@ -45,10 +44,6 @@ const MAX_TURN: f64 = PI / 8.0;
 const BREAKS: Flags = Flags::REACQUIRED.with(Flags::PHASE_JUMP).with(Flags::STEP);
 /// Deviations below which a decay is not significant.
 const DECAY_SEEN: f64 = 3.0;
-/// Turn of a pattern within a run, rad, beyond which flaws of the pick-offs look like splits.
-const TURNS: f64 = PI / 8.0;
-/// Runs at rest from which on these determine the splits whatever the flaws.
-const ENOUGH_STILL: usize = 2;
 /// Relative change of an amplitude per radian that the pattern turns, which is no drive: a gain ratio that is 30 % off causes it.
 const BY_FLAWS: f64 = 0.6;
 /// Correlation of consecutive residuals that an unnoticed overlap of windows may cause, and the deviations that chance may add.
@@ -116,191 +111,5 @@ pub fn run(options: &Resonator) -> Result<(), Failure> {
     // The result is printed already: standard error may be closed.
     let mut err = io::stderr().lock();
     let _ = driven::warn(&mut err, &driven).and_then(|()| write_notes(&mut err, &results));
-    Ok(())
-}
-
-/// Rate at which the patterns turn, rad/s, if all that turn do so one way and too few are at rest.
-fn one_way(results: &Results) -> Option<f64> {
-    let furthest = |run: &Run| {
-        let [back, forth] = run.turns();
-        [-back, forth].map(|turned| turned > TURNS)
-    };
-    let (turning, still): (Vec<&Run>, Vec<&Run>) = results
-        .listed()
-        .partition(|run| furthest(run).contains(&true));
-    let ways = furthest(turning.first()?);
-    let is_one_way = ways != [true; 2] && turning.iter().all(|run| furthest(run) == ways);
-    let turned: f64 = turning.iter().map(|run| run.turned().abs()).sum();
-    let seconds: f64 = turning.iter().map(|run| run.seconds()).sum();
-    (is_one_way && still.len() < ENOUGH_STILL).then(|| turned / seconds)
-}
-
-/// True if all patterns stand where the first one does, and rotation turns none far: the splits are found from how they move it.
-fn is_one_pattern(results: &Results) -> bool {
-    let Results { rows, found, .. } = results;
-    let Some(resonator) = found.resonator().filter(|_| !found.model.is_unsteady()) else {
-        return false;
-    };
-    let first = rows.runs[0].rows[0].angle;
-    let mut all = rows.runs.iter().zip(resonator.rotations);
-    all.all(|(run, (rotation, _))| {
-        let apart = turn(run.rows[0].angle - first);
-        apart.abs() < TURNS && (rotation * run.seconds()).abs() < TURNS
-    })
-}
-
-/// Writes what the numbers leave open.
-fn write_notes(out: &mut impl Write, results: &Results) -> io::Result<()> {
-    note_runs(out, results)?;
-    note_splits(out, results)?;
-    note_frequency(out, &results.frequency)?;
-    note_damping(out, &results.found)?;
-    if results.found.model.is_unsteady() {
-        writeln!(
-            out,
-            "no steady rotation explains the rows: pattern angles are taken from the rows, and their drift is not used to find the splits"
-        )?;
-    }
-    note_misfit(out, &results.found)
-}
-
-/// Writes which runs are not listed, and which do not decay.
-fn note_runs(out: &mut impl Write, results: &Results) -> io::Result<()> {
-    let Results { rows, listed, .. } = results;
-    rows.write_notes(out)?;
-    let others = rows.runs.len() - listed.len();
-    if others > 0 {
-        let of_listed: usize = results.listed().map(|run| run.rows.len()).sum();
-        writeln!(
-            out,
-            "not listed: {} with {} rows, too short or too noisy to show a decay alone; the resonator's values include them",
-            counted(others as u64, "run"),
-            rows.used() - of_listed
-        )?;
-    }
-    for (index, &run) in listed.iter().enumerate() {
-        let (decay, std) = results.found.decay_of_run(run);
-        let what = if decay < -DECAY_SEEN * std {
-            "grows: something drives it; its decay time and quality factor mean nothing"
-        } else if decay < DECAY_SEEN * std {
-            "does not decay significantly: its decay time and quality factor mean nothing; record longer"
-        } else {
-            continue;
-        };
-        writeln!(out, "warning: the wave of run {} {what}", index + 1)?;
-    }
-    Ok(())
-}
-
-/// Writes if the splits are not determined, or if flaws of the pick-offs look like them.
-fn note_splits(out: &mut impl Write, results: &Results) -> io::Result<()> {
-    if results.found.resonator().is_none() {
-        writeln!(
-            out,
-            "the rows do not determine the splits of damping and frequency: give ring-downs at pattern angles of 0°, 22.5° and 45°, or of a \
-             pattern that turns by 45° or more; the mean frequency is the one along the patterns, which a split shifts"
-        )?;
-    } else if let Some(rate) = one_way(results) {
-        let (frequency, _) = results.frequency.mean;
-        writeln!(
-            out,
-            "warning: the pattern turns only one way, and remaining flaws of the pick-offs then look like splits: a gain ratio that is 0.1 % \
-             off like {:.1e} 1/s of damping, a skew 10 ns off like {:.1e} Hz; give rows of a pattern that turns the other way too",
-            4e-3 * rate,
-            4e-8 * rate * frequency
-        )?;
-    } else if is_one_pattern(results) && results.found.model.damping == Damping::Steady {
-        writeln!(
-            out,
-            "warning: only one pattern that is not turned shows the splits, and damping that changes by 1 % meanwhile looks like a split of \
-             damping; give ring-downs at other pattern angles, or of a pattern that turns"
-        )?;
-    }
-    Ok(())
-}
-
-/// Warns if the frequency moves, and says what is known of the cause.
-fn note_frequency(out: &mut impl Write, frequency: &Frequency) -> io::Result<()> {
-    if let Some(moves) = frequency.moves {
-        let with = match frequency.by_energy {
-            ByEnergy::Chance => String::new(),
-            ByEnergy::Alone(_, drift) => format!(
-                "; the dependence on a_A² + a_B² is taken not to be a drift; an unseen drift of {drift:.0e} Hz/s would change it by one \
-                 deviation"
-            ),
-            ByEnergy::Beside(_) => {
-                "; the deviation of the dependence on a_A² + a_B² allows for a drift with time".to_owned()
-            }
-            ByEnergy::Denied => {
-                "; the dependence on a_A² + a_B² is not reported: if the shell's stiffness caused it, a_A·a_B would turn the patterns at \
-                 another rate than observed"
-                    .to_owned()
-            }
-            ByEnergy::Ambiguous => {
-                "; the rows do not distinguish a dependence on a_A² + a_B² from a drift with time: let the wave ring down further".to_owned()
-            }
-        };
-        writeln!(
-            out,
-            "warning: the frequency varies by {moves:.2e} Hz rms beyond noise: it depends on the amplitude or the temperature, or the sample \
-             clock drifts; the deviation of the mean frequency includes this{with}"
-        )?;
-    }
-    Ok(())
-}
-
-/// Warns if the damping changes, and says what the numbers then are.
-fn note_damping(out: &mut impl Write, found: &Found) -> io::Result<()> {
-    let what = match found.model.damping {
-        Damping::Steady => return Ok(()),
-        Damping::ByEnergy => {
-            "with the amplitude, or pick-offs or converter are nonlinear: decay times are those of small waves"
-        }
-        Damping::InTime(_) => {
-            "with time, or a gain does, or pick-offs are not calibrated: each run has a decay of its own, that of a straight line through the \
-             logarithm of its amplitude"
-        }
-    };
-    writeln!(
-        out,
-        "warning: the damping changes {what}; the change is allowed for in all other quantities"
-    )
-}
-
-/// Warns if the rows differ from the resonator's motion by more or less than noise.
-fn note_misfit(out: &mut impl Write, found: &Found) -> io::Result<()> {
-    let why = "the wave is still driven in some rows (see --from), the damping changes in other ways than are allowed for, a tone at the \
-               wave's frequency is always present (as from a drive's feed-through), the pick-offs are not calibrated, a gain or the wave \
-               jumped by too little to be flagged, a pick-off or the converter is nonlinear, or the converter's rounding repeats from row \
-               to row";
-    if found.residual > BEYOND_NOISE {
-        writeln!(
-            out,
-            "warning: rows differ from the resonator's motion by {:.1} times their noise: {why}; the deviations above include this factor, \
-             but the values may be further off",
-            found.residual
-        )?;
-    } else if found.is_below_noise() {
-        writeln!(
-            out,
-            "warning: rows differ from the resonator's motion by only {:.2} times their noise: if noise is below half a converter step, \
-             rounding repeats from row to row, and values may be off by several times the deviations above (use more of the converter's \
-             range, or add noise before it); or, because of a filter or a second tone, noise is weaker about the wave's frequency than \
-             elsewhere, and the deviations are larger than need be (see --coloured and --hum of identify)",
-            found.residual
-        )?;
-    } else if found.is_alike() {
-        writeln!(
-            out,
-            "warning: consecutive rows differ from the resonator's motion in the same way, which noise does not do: {why}; the values may be \
-             further off than the deviations above"
-        )?;
-    }
-    if found.withholds_turning() {
-        writeln!(
-            out,
-            "the turning by a_A·a_B is not reported: uncalibrated pick-offs have the same effect"
-        )?;
-    }
     Ok(())
 }

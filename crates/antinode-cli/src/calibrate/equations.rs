@@ -26,22 +26,22 @@ pub struct AtMoment {
 
 /// The equations of the run with this index, if `shared` unknowns are those of all runs; the splits, about these, are per `unit` of
 /// time, s.
-pub fn equations(
-    (index, run): (usize, &Run),
-    pick_offs: &PickOffs,
+pub fn equations<'a>(
+    (index, run): (usize, &'a Run),
+    pick_offs: &'a PickOffs,
     damping: Damping,
     shared: usize,
     [dc, ds, ws, wc]: [f64; SPLITS],
     unit: f64,
-) -> Vec<AtMoment> {
+) -> impl Iterator<Item = AtMoment> + 'a {
     let ideal = run.ideal(pick_offs);
     let (first, last) = (run.moments[0].time, run.moments[ideal.len() - 1].time);
     let middle = 0.5 * (first + last);
     let own = shared + damping.own() * index;
     let tangent = (2.0 * pick_offs.angle).tan();
     let mut sums = Sums::default();
-    let each = run.moments.iter().zip(&ideal);
-    let each = each.map(|(moment, &ideal)| {
+    let each = run.moments.iter().zip(ideal);
+    each.map(move |(moment, ideal)| {
         let [energy, r, s, q] = shares(ideal);
         // R/E, S/E and Q/E, and their derivatives if D grows by a share of its own, by one of C, and by ln g, by the phase of D, and by ε.
         let of_own = [r * r - 1.0, r * s, q * r];
@@ -106,8 +106,7 @@ pub fn equations(
             energy: of_energy,
             quadrature: equation(of_quadrature, q, own + 2, variances[1]),
         }
-    });
-    each.collect()
+    })
 }
 
 /// Variances that noise in the integrals adds to those of the flaws, whose part of a solution is changed by `of_flaws` for each change of

@@ -40,7 +40,7 @@ fn run() -> Run {
 
 fn of(run: &Run, pick_offs: &PickOffs, splits: [f64; SPLITS]) -> Vec<AtMoment> {
     let damping = Damping::Steady;
-    equations((0, run), pick_offs, damping, FLAWS + SPLITS, splits, UNIT)
+    equations((0, run), pick_offs, damping, FLAWS + SPLITS, splits, UNIT).collect()
 }
 
 /// What is seen, without the part of the splits.

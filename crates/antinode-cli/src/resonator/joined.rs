@@ -12,9 +12,9 @@ const WORTH: usize = 4;
 /// Turn of a pattern, rad, and change of an amplitude as a share of a_A from mean to mean, at most: half of the turn that rows may have.
 const MAX_TURN: f64 = 0.2;
 const MAX_CHANGE: f64 = 0.02;
-/// Deviations by which noise may exceed these.
+/// Deviations of noise that are added to these.
 const BY_NOISE: f64 = 5.0;
-/// Distance of rows, in windows' mean distances, beyond which there is a gap between them.
+/// Distance of rows, in mean distances, beyond which there is a gap between them.
 const GAP: f64 = 1.5;
 
 /// Runs of the means of many rows; `None` if there are not so many, or the patterns move too fast.
@@ -25,6 +25,7 @@ pub fn joined(runs: &[Run]) -> Option<Vec<Run>> {
     joined.filter(|joined: &Vec<Run>| WORTH * rows(joined) <= count)
 }
 
+/// Number of rows of all runs.
 fn rows(runs: &[Run]) -> usize {
     runs.iter().map(|run| run.rows.len()).sum()
 }
@@ -56,6 +57,7 @@ fn means_of(run: &Run, each: usize) -> Option<Vec<Row>> {
     Some(joined)
 }
 
+/// The mean of rows, of which the middle one gives what has no mean.
 fn mean(rows: &[Row]) -> Row {
     let (first, last) = (rows[0], rows[rows.len() - 1]);
     let count = rows.len() as f64;

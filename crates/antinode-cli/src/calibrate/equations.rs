@@ -39,6 +39,7 @@ pub fn equations<'a>(
     let middle = 0.5 * (first + last);
     let own = shared + damping.own() * index;
     let tangent = (2.0 * pick_offs.angle).tan();
+    let noise_gains = pick_offs.noise_gains();
     let mut sums = Sums::default();
     let each = run.moments.iter().zip(ideal);
     each.map(move |(moment, ideal)| {
@@ -85,7 +86,7 @@ pub fn equations<'a>(
             of_energy[flaw] -= dc * to_r + ds * to_s;
             of_quadrature[flaw] -= ws * to_r + wc * to_s - dc * to_qr - ds * to_qs;
         }
-        let variances = variances(ideal, pick_offs).map(|part| part * moment.variance);
+        let variances = variances(ideal, noise_gains).map(|part| part * moment.variance);
         let time = 2.0 * (moment.time - middle) / unit;
         let equation = |row: [f64; FLAWS + SPLITS], seen: f64, first: usize, variance: f64| {
             let columns = (0..shared).chain([first, first + 1]);

@@ -56,10 +56,11 @@ impl Run {
 
     /// The wave's energy in each window, if the pick-offs are these.
     pub fn energies(&self, pick_offs: &PickOffs) -> Vec<Energy> {
+        let noise_gains = pick_offs.noise_gains();
         let moments = self.moments.iter().zip(self.ideal(pick_offs));
         let energies = moments.map(|(moment, ideal)| {
             let [energy, ..] = shares(ideal);
-            let [variance, _] = variances(ideal, pick_offs);
+            let [variance, _] = variances(ideal, noise_gains);
             Energy {
                 time: moment.time,
                 log: 0.5 * energy.ln(),

@@ -322,9 +322,9 @@ pub fn shares([c, d]: [Complex<f64>; 2]) -> [f64; 4] {
     ]
 }
 
-/// The variances of ln E and Q/E of the phasors of ideal pick-offs, for noise of variance 1 on the raw phasors of these pick-offs.
-pub fn variances([c, d]: [Complex<f64>; 2], pick_offs: &PickOffs) -> [f64; 2] {
-    let [d_on_d, c_on_d] = pick_offs.noise_gains();
+/// The variances of ln E and Q/E of the phasors of ideal pick-offs, for noise of variance 1 on the raw phasors of pick-offs with these
+/// [gains](PickOffs::noise_gains).
+pub fn variances([c, d]: [Complex<f64>; 2], [d_on_d, c_on_d]: [f64; 2]) -> [f64; 2] {
     let [energy, _, _, q] = shares([c, d]);
     // Coefficients of the noise of each raw phasor, of which only the real parts of the products count.
     let [c, d] = [c.conj(), d.conj()];

@@ -30,10 +30,8 @@ pub fn across(runs: &[Run], model: Model) -> Option<Found> {
 fn cut(runs: &[Run]) -> Option<(Vec<Run>, Vec<usize>)> {
     let (mut pieces, mut firsts) = (Vec::new(), Vec::new());
     for run in runs {
-        let long = LONG * run.seconds() / run.rows.len() as f64;
-        let of_run = run.rows.chunk_by(|row, next| next.time - row.time < long);
         firsts.push(pieces.len());
-        for (index, rows) in of_run.enumerate() {
+        for (index, rows) in run.pieces(LONG).enumerate() {
             if rows.len() >= MIN_ROWS {
                 pieces.push(run.with(rows.to_vec()));
             } else if index == 0 {

@@ -44,10 +44,8 @@ fn means(run: &Run, most: usize) -> Run {
 
 /// The means of this many rows each, or fewer before a gap; `None` if the wave moves too much between them.
 fn means_of(run: &Run, each: usize) -> Option<Vec<Row>> {
-    let gap = GAP * run.seconds() / run.rows.len() as f64;
-    let pieces = run.rows.chunk_by(|row, next| next.time - row.time < gap);
     let mut joined = Vec::new();
-    for piece in pieces {
+    for piece in run.pieces(GAP) {
         let first = joined.len();
         joined.extend(piece.chunks(each).map(mean));
         if !joined[first..].windows(2).all(is_slow) {

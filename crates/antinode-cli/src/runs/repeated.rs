@@ -39,10 +39,8 @@ impl Run {
 
     /// True if some of the time that both span is the same.
     fn is_beside(&self, other: &Self) -> bool {
-        let span =
-            |run: &Self| [run.rows.first(), run.rows.last()].map(|row| row.map(|row| row.time));
-        let ([from, to], [other_from, other_to]) = (span(self), span(other));
-        from <= other_to && other_from <= to
+        let end = |run: &Self| run.rows[run.rows.len() - 1].time;
+        self.rows[0].time <= end(other) && other.rows[0].time <= end(self)
     }
 }
 

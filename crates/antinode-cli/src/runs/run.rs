@@ -35,6 +35,13 @@ impl Run {
         self.rows[self.rows.len() - 1].time - self.rows[0].time
     }
 
+    /// The rows between gaps of so many mean distances of rows and more.
+    pub fn pieces(&self, gap: f64) -> impl Iterator<Item = &[Row]> {
+        let gap = gap * self.seconds() / self.rows.len() as f64;
+        self.rows
+            .chunk_by(move |row, next| next.time - row.time < gap)
+    }
+
     /// Turns of the pattern from row to row, rad.
     fn steps(&self) -> impl Iterator<Item = f64> {
         let pairs = self.rows.windows(2);

@@ -301,7 +301,10 @@ fn variances_are_those_that_noise_on_raw_phasors_causes() {
                 *square += ((more - less) / (2.0 * step)).powi(2);
             }
         }
-        for (variance, square) in variances(ideal, &pick_offs).into_iter().zip(squares) {
+        for (variance, square) in variances(ideal, pick_offs.noise_gains())
+            .into_iter()
+            .zip(squares)
+        {
             assert!(
                 (variance / square - 1.0).abs() < 1e-6,
                 "{gain_ratio}: {variance} {square}"

@@ -8,12 +8,12 @@ use crate::resonator::model::Damping;
 const DRIFT: f64 = 0.05 * RESONATOR[0] / 39.9;
 
 /// p for that, which leaves the mean decay as it is.
-fn drifting(time: f64, _: f64) -> f64 {
+pub(super) fn drifting(time: f64, _: f64) -> f64 {
     0.5 * DRIFT * time * (time - 39.9)
 }
 
 /// The runs with waves smaller by e^−p, where p is given for the time since the first row, s, and ∫(a_A² + a_B²) dt of the wave as it was.
-fn damped(runs: Vec<Run>, p: impl Fn(f64, f64) -> f64) -> Vec<Run> {
+pub(super) fn damped(runs: Vec<Run>, p: impl Fn(f64, f64) -> f64) -> Vec<Run> {
     let damped = |mut run: Run| {
         let (mut last, mut integral) = ((0.0, 0.0), 0.0);
         let first = run.rows[0].time;

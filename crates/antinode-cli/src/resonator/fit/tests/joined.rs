@@ -1,5 +1,6 @@
 //! Many rows, whose means tell which model explains them.
 
+use super::damping::{damped, drifting};
 use super::*;
 
 /// Two runs of 30 000 rows in 40 s, whose patterns are turned at these rates, rad/s, one way and the other.
@@ -12,18 +13,6 @@ fn many(resonator: &[f64; 6], rate: impl Fn(f64) -> f64, seed: u64) -> Vec<Run> 
         run_turned(resonator, |t| way * rate(t), start, count, step, 1e-3, seed)
     })
     .collect()
-}
-
-/// The same with a damping that changes by a twentieth.
-fn changing(seed: u64) -> Vec<Run> {
-    let mut runs = many(&RESONATOR, |_| 0.1, seed);
-    for row in runs.iter_mut().flat_map(|run| &mut run.rows) {
-        let time = row.time - 7.0;
-        let by = (-0.5 * 0.05 * RESONATOR[0] / 40.0 * time * (time - 40.0)).exp();
-        row.main *= by;
-        row.quadrature *= by;
-    }
-    runs
 }
 
 #[test]
@@ -42,7 +31,7 @@ fn a_fit_by_means_is_that_to_all_rows() {
             )
         },
         |seed| many(&STIFF, |_| 0.1, seed),
-        changing,
+        |seed| damped(many(&RESONATOR, |_| 0.1, seed), drifting),
     ];
     (0..cases.len()).into_par_iter().for_each(|index| {
         let runs = cases[index](2);

@@ -2,6 +2,7 @@
 
 mod equations;
 mod moments;
+mod pick_offs;
 mod solve;
 mod undriven;
 
@@ -17,7 +18,8 @@ use crate::given_rows::GivenRows;
 use crate::options::Corrected;
 use crate::runs::{BEYOND_NOISE, Runs, driven};
 use crate::serialized;
-use solve::{Damping, Found, MIN_TURN_BACK, PickOffs, solve};
+use pick_offs::PickOffs;
+use solve::{Damping, Found, MIN_TURN_BACK, solve};
 use undriven::{moments, without_driven};
 
 /// Deviations below which a flaw is not significant.

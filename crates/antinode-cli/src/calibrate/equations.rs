@@ -3,7 +3,8 @@
 use nalgebra::DVector;
 
 use super::moments::Run;
-use super::solve::{Damping, FLAWS, PickOffs, SPLITS, shares, variances};
+use super::pick_offs::PickOffs;
+use super::solve::{Damping, FLAWS, SPLITS, shares, variances};
 use crate::runs::per_radian;
 
 /// An equation of least squares: places and factors of unknowns, the value seen, and one over its variance.

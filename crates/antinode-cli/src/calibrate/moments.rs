@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 
 use nalgebra::Complex;
 
-use super::solve::{PickOffs, shares, variances};
+use super::pick_offs::PickOffs;
+use super::solve::{shares, variances};
 use crate::runs::driven::Energy;
 use crate::runs::{self, MIN_ROWS, Row, turn};
 

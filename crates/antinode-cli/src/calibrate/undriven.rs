@@ -1,7 +1,8 @@
 //! Calibration without driven rows: a recording of several ring-downs also holds their excitation.
 
 use super::moments::Run;
-use super::solve::{Found, PickOffs, solve};
+use super::pick_offs::PickOffs;
+use super::solve::{Found, solve};
 use crate::median::median;
 use crate::runs::driven::{undriven, unevenness};
 use crate::runs::{self, BEYOND_NOISE};

@@ -111,20 +111,45 @@ pub fn equations<'a>(
     })
 }
 
+/// What noise in the integrals needs of a moment: all that later moments still need of many.
+struct Weighed {
+    time: f64,
+    state: [f64; 3],
+    variance: f64,
+    /// Changes of each flaw with the values seen of ln E and of Q/E.
+    by_energy: [f64; FLAWS],
+    by_quadrature: [f64; FLAWS],
+}
+
+impl Weighed {
+    fn new(moment: &AtMoment, of_flaws: &[DVector<f64>; FLAWS]) -> Self {
+        let along = |equation: &Equation| {
+            of_flaws.each_ref().map(|of_flaw| {
+                let each = equation.entries.iter();
+                equation.weight * each.map(|&(at, by)| by * of_flaw[at]).sum::<f64>()
+            })
+        };
+        Self {
+            time: moment.time,
+            state: moment.state,
+            variance: moment.variance,
+            by_energy: along(&moment.energy),
+            by_quadrature: along(&moment.quadrature),
+        }
+    }
+}
+
 /// Variances that noise in the integrals adds to those of the flaws, whose part of a solution is changed by `of_flaws` for each change of
 /// the right-hand side, if the splits are these.
 ///
 /// The integrals are those of what is seen, so that noise of one moment acts on all later ones.
 pub fn by_integrals(
-    run: &[AtMoment],
+    run: impl Iterator<Item = AtMoment>,
     [dc, ds, ws, wc]: [f64; SPLITS],
     of_flaws: &[DVector<f64>; FLAWS],
 ) -> [f64; FLAWS] {
-    of_flaws.each_ref().map(|of_flaw| {
-        let along = |equation: &Equation| {
-            let each = equation.entries.iter();
-            equation.weight * each.map(|&(at, by)| by * of_flaw[at]).sum::<f64>()
-        };
+    let run: Vec<_> = run.map(|moment| Weighed::new(&moment, of_flaws)).collect();
+    [0, 1, 2].map(|flaw| {
         let (mut later_energy, mut later_quadrature, mut sum) = (0.0, 0.0, 0.0);
         for (index, row) in run.iter().enumerate().rev() {
             let [r, s, q] = row.state;
@@ -137,12 +162,12 @@ pub fn by_integrals(
                 -ds * of_energy - (wc - ds * q) * of_quadrature,
                 (dc * r + ds * s) * of_quadrature,
             ];
-            let now = along(&row.quadrature);
+            let now = row.by_quadrature[flaw];
             // R/E, S/E and Q/E are a vector of length 1: noise acts across it.
             let radial = by[0] * r + by[1] * s + by[2] * q;
             let across = by.iter().map(|by| by * by).sum::<f64>() - radial * radial;
             sum += row.variance * (across + 2.0 * now * (by[2] - q * radial));
-            later_energy += along(&row.energy);
+            later_energy += row.by_energy[flaw];
             later_quadrature += now;
         }
         sum

@@ -171,7 +171,7 @@ fn variances_of_flaws(
         for run in runs.iter().enumerate() {
             let shared = FLAWS + SPLITS;
             let moments = equations(run, pick_offs, damping, shared, splits, longest(runs));
-            let more = by_integrals(&moments.collect::<Vec<_>>(), splits, &of_flaws);
+            let more = by_integrals(moments, splits, &of_flaws);
             for (variance, more) in variances.iter_mut().zip(more) {
                 *variance += more;
             }

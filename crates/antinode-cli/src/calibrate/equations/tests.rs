@@ -92,7 +92,11 @@ fn noise_in_the_integrals_adds_the_variance_that_differences_show() {
     let of_flaws = [0.0, 1.0, 2.0]
         .map(|flaw| DVector::from_fn(unknowns, |at, _| (flaw + 1.7 * at as f64).sin()));
     let about = of(&run, &PickOffs::IDEAL, OF_SPLITS);
-    let added = by_integrals(&about, OF_SPLITS, &of_flaws);
+    let added = by_integrals(
+        of(&run, &PickOffs::IDEAL, OF_SPLITS).into_iter(),
+        OF_SPLITS,
+        &of_flaws,
+    );
     for (of_flaw, added) in of_flaws.iter().zip(added) {
         let solution = |run: &Run, splits: [f64; SPLITS]| {
             let moments = of(run, &PickOffs::IDEAL, splits);

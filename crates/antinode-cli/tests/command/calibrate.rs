@@ -118,6 +118,28 @@ fn very_unlike_gains_are_found_to_their_deviations() {
 }
 
 #[test]
+fn modes_of_unlike_frequency_do_not_look_like_flaws() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let mut errors = Vec::new();
+    // The mode of the higher frequency moves less: by 10⁻⁴ here, which would be a skew of 20 to 40 ns or a gain.
+    for (seed, angle) in [(1, "0"), (2, "0.4"), (3, "0.8"), (4, "-0.4")] {
+        let simulated = format!(
+            "--rate 10000 --seconds 20 --frequency 500 --quadrature-amplitude 0.1 --noise 2e-4 --decay-rate 0.05 --seed {seed} \
+             --frequency-split 0.1 --frequency-angle {angle}"
+        );
+        record_both_ways(here, &simulated, 0.7);
+        let found = of_windows(here, "--periods 5", "");
+        assert!(!found.err.contains("warning"), "{}", found.err);
+        let (values, deviations) = numbers(&found);
+        let all = values.iter().zip([1.0, 0.0, 0.0]).zip(deviations);
+        errors.extend(all.map(|((value, truth), deviation)| (value - truth) / deviation));
+    }
+    let rms = rms(&errors);
+    assert!((0.6..1.5).contains(&rms), "{errors:.1?}");
+}
+
+#[test]
 fn flaws_are_found_to_their_deviations_and_removed() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();

@@ -111,7 +111,7 @@ pub fn equations<'a>(
     })
 }
 
-/// What noise in the integrals needs of a moment: all that later moments still need of many.
+/// What is kept of a moment to sum up noise in the integrals, which runs backwards in time: a fraction of the size of its equations.
 struct Weighed {
     time: f64,
     state: [f64; 3],

@@ -168,9 +168,10 @@ fn variances_of_flaws(
     if let Some(splits) = splits {
         let unit = |flaw| DVector::from_fn(unknowns, |at, _| f64::from(u8::from(at == flaw)));
         let of_flaws = [0, 1, 2].map(|flaw| factors.solve(&unit(flaw)));
+        let longest = longest(runs);
         for run in runs.iter().enumerate() {
             let shared = FLAWS + SPLITS;
-            let moments = equations(run, pick_offs, damping, shared, splits, longest(runs));
+            let moments = equations(run, pick_offs, damping, shared, splits, longest);
             let more = by_integrals(moments, splits, &of_flaws);
             for (variance, more) in variances.iter_mut().zip(more) {
                 *variance += more;

@@ -66,6 +66,22 @@ fn numbers(run: &Run) -> ([f64; 3], [f64; 3]) {
     )
 }
 
+/// Errors of the numbers printed, in their deviations.
+fn errors(run: &Run, truth: [f64; 3]) -> [f64; 3] {
+    let (values, deviations) = numbers(run);
+    [0, 1, 2].map(|i| (values[i] - truth[i]) / deviations[i])
+}
+
+/// Fails if a number printed is four deviations off.
+fn assert_found(run: &Run, truth: [f64; 3]) {
+    let errors = errors(run, truth);
+    assert!(
+        errors.iter().all(|error| error.abs() < 4.0),
+        "{errors:.1?}: {}",
+        run.err
+    );
+}
+
 #[test]
 fn windows_in_which_the_pattern_turns_far_give_the_same_result() {
     let directory = tempfile::tempdir().unwrap();
@@ -78,16 +94,7 @@ fn windows_in_which_the_pattern_turns_far_give_the_same_result() {
         // 4° in each: the average over a window shows half a per cent less of the flaws.
         for options in ["", "--gain-ratio 0.98 --skew-ns -100"] {
             let found = of_windows(here, "--periods 250", options);
-            let (values, deviations) = numbers(&found);
-            for ((value, truth), deviation) in
-                values.iter().zip([1.03, 800.0, 0.02]).zip(deviations)
-            {
-                assert!(
-                    (value - truth).abs() < 4.0 * deviation,
-                    "{options}: {}",
-                    found.err
-                );
-            }
+            assert_found(&found, [1.03, 800.0, 0.02]);
         }
     }
 }
@@ -97,7 +104,7 @@ fn very_unlike_gains_are_found_to_their_deviations() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     for (gain, amplitude) in [("3", "0.25"), ("0.33", "0.75")] {
-        let mut errors = Vec::new();
+        let mut all = Vec::new();
         for seed in 1..=6 {
             let simulated = format!(
                 "--main-amplitude {amplitude} --quadrature-amplitude 0.01 --seconds 3 --seed {seed} --noise 5e-4 --decay-rate 0.1 \
@@ -107,13 +114,10 @@ fn very_unlike_gains_are_found_to_their_deviations() {
             // The pattern seems to turn by 0.4° to 3.9° in each.
             let found = of_windows(here, "--periods 50", "");
             assert!(!found.err.contains("warning"), "{}", found.err);
-            let (values, deviations) = numbers(&found);
-            let truth = [gain.parse().unwrap(), 800.0, 0.02];
-            let all = values.iter().zip(truth).zip(deviations);
-            errors.extend(all.map(|((value, truth), deviation)| (value - truth) / deviation));
+            all.extend(errors(&found, [gain.parse().unwrap(), 800.0, 0.02]));
         }
-        let rms = rms(&errors);
-        assert!((0.6..1.5).contains(&rms), "{gain}: {errors:.1?}");
+        let rms = rms(&all);
+        assert!((0.6..1.5).contains(&rms), "{gain}: {all:.1?}");
     }
 }
 
@@ -121,7 +125,7 @@ fn very_unlike_gains_are_found_to_their_deviations() {
 fn modes_of_unlike_frequency_do_not_look_like_flaws() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    let mut errors = Vec::new();
+    let mut all = Vec::new();
     // The mode of the higher frequency moves less: by 10⁻⁴ here, which would be a skew of 20 to 40 ns or a gain.
     for (seed, angle) in [(1, "0"), (2, "0.4"), (3, "0.8"), (4, "-0.4")] {
         let simulated = format!(
@@ -131,12 +135,10 @@ fn modes_of_unlike_frequency_do_not_look_like_flaws() {
         record_both_ways(here, &simulated, 0.7);
         let found = of_windows(here, "--periods 5", "");
         assert!(!found.err.contains("warning"), "{}", found.err);
-        let (values, deviations) = numbers(&found);
-        let all = values.iter().zip([1.0, 0.0, 0.0]).zip(deviations);
-        errors.extend(all.map(|((value, truth), deviation)| (value - truth) / deviation));
+        all.extend(errors(&found, [1.0, 0.0, 0.0]));
     }
-    let rms = rms(&errors);
-    assert!((0.6..1.5).contains(&rms), "{errors:.1?}");
+    let rms = rms(&all);
+    assert!((0.6..1.5).contains(&rms), "{all:.1?}");
 }
 
 #[test]
@@ -145,10 +147,8 @@ fn flaws_are_found_to_their_deviations_and_removed() {
     let here = directory.path();
     record(here);
     let both = calibrate(here, "one.wav other.wav", "");
+    assert_found(&both, [1.012, 130.0, 0.008]);
     let (found, deviations) = numbers(&both);
-    for ((found, truth), deviation) in found.iter().zip([1.012, 130.0, 0.008]).zip(deviations) {
-        assert!((found - truth).abs() < 4.0 * deviation, "{}", both.err);
-    }
     // Three digits of the deviation, and no more.
     let digits = both.out.split_whitespace().map(|word| {
         word.split_once('.')
@@ -338,10 +338,6 @@ fn damping_that_changes_is_told_and_does_not_look_like_flaws() {
             "{}",
             found.err
         );
-        let (values, deviations) = numbers(&found);
-        for ((value, deviation), truth) in values.iter().zip(deviations).zip([1.012, 130.0, 0.008])
-        {
-            assert!((value - truth).abs() < 4.0 * deviation, "{}", found.err);
-        }
+        assert_found(&found, [1.012, 130.0, 0.008]);
     }
 }

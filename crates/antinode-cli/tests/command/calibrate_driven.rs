@@ -1,7 +1,16 @@
 //! `antinode calibrate`: rows in which something drives the wave, between the ring-downs of one recording.
 
+use std::path::Path;
+
 use crate::common::ring_downs::in_one;
-use crate::common::run_with;
+use crate::common::{Run, run_with};
+
+/// Runs `calibrate` on these rows, which must give a calibration.
+fn calibrate(here: &Path, rows: Vec<u8>) -> Run {
+    let found = run_with(here, "calibrate - --output csv", rows);
+    assert_eq!(found.code, 0, "{}", found.err);
+    found
+}
 
 #[test]
 fn driven_rows_are_left_out_of_the_calibration() {
@@ -17,8 +26,7 @@ fn driven_rows_are_left_out_of_the_calibration() {
             format!("{wave} --noise 0.002 --frequency 5332 --gain-ratio 1.03 --angle 0.3 --seed {seed}")
         })
     });
-    let found = run_with(here, "calibrate - --output csv", in_one(here, waves));
-    assert_eq!(found.code, 0, "{}", found.err);
+    let found = calibrate(here, in_one(here, waves));
     for (line, (quantity, truth, most)) in found.out.lines().skip(1).zip([
         ("gain_ratio", 1.03, 1e-4),
         ("skew_ns", 0.0, 2.0),
@@ -59,9 +67,7 @@ fn with_drives(growth: f64, bent: f64) -> String {
 #[test]
 fn driven_rows_that_leave_no_calibration_are_left_out_too() {
     let directory = tempfile::tempdir().unwrap();
-    let rows = with_drives(0.15, 0.0).into_bytes();
-    let found = run_with(directory.path(), "calibrate - --output csv", rows);
-    assert_eq!(found.code, 0, "{}", found.err);
+    let found = calibrate(directory.path(), with_drives(0.15, 0.0).into_bytes());
     assert!(
         found.out.contains("gain_ratio,1.0000") || found.out.contains("gain_ratio,0.9999"),
         "{}",
@@ -77,9 +83,7 @@ fn driven_rows_that_leave_no_calibration_are_left_out_too() {
 #[test]
 fn rows_are_kept_if_without_them_the_others_are_hardly_explained_better() {
     let directory = tempfile::tempdir().unwrap();
-    let rows = with_drives(0.0, 0.03).into_bytes();
-    let found = run_with(directory.path(), "calibrate - --output csv", rows);
-    assert_eq!(found.code, 0, "{}", found.err);
+    let found = calibrate(directory.path(), with_drives(0.0, 0.03).into_bytes());
     assert!(
         found.err.contains("440 of 440 rows")
             && found.err.contains("times their noise")

@@ -5,6 +5,7 @@ mod format;
 mod options;
 mod out;
 mod remarks;
+mod residual;
 mod search;
 mod span;
 mod stop;
@@ -28,6 +29,7 @@ pub use options::Identify;
 use options::{MAX_PERIODS, Shown};
 use out::{Out, check_is_no_input};
 use remarks::flag_counts::FlagCounts;
+use residual::Residual;
 use stop::Stop;
 use windows::Windows;
 
@@ -51,15 +53,17 @@ pub fn run(options: &Identify) -> Result<(), Failure> {
     .check(usize::from(MAX_PERIODS) + 2)?;
     in_order(options.from, options.to)?;
     options.check_channels()?;
+    options.check_residual()?;
     check_is_no_input(options)?;
     let format = options.format()?;
     warn_of_duplicates(&options.files);
     let (out, to) = Out::open(options)?;
     let mut rows = Rows::new(to, format, options.methods == Shown::All);
-    let stop = Stop::new(&out)?;
+    let residual = Residual::default();
+    let stop = Stop::new(&out, &residual)?;
     let mut failure = None;
     for path in &options.files {
-        let result = identify(path, options, format, &stop, &mut rows);
+        let result = identify(path, options, format, &stop, &residual, &mut rows);
         // Rows found before a fault are printed before the fault is reported.
         let flushed = rows.flush().map_err(Failure::from);
         let error = match flushed.and(result) {
@@ -101,11 +105,13 @@ fn identify(
     options: &Identify,
     format: Format,
     stop: &Stop,
+    residual: &Residual,
     rows: &mut Rows<impl Write>,
 ) -> Result<(), Failure> {
     let (mut recording, rate) = open(path, options)?;
+    residual.begin(options, &recording, rate)?;
     let name = recording.name.clone();
-    let mut windows = Windows::new(&name, options, &recording, rate, stop)?;
+    let mut windows = Windows::new(&name, options, &recording, rate, stop, residual)?;
     stop.begin(&name, FlagCounts::new(options.hum, options.coloured));
     let pairs = recording.opened.pairs;
     let length = pairs.map_or(String::new(), |pairs| format!(", {pairs} sample pairs"));

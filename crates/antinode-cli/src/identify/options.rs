@@ -115,6 +115,13 @@ pub struct Identify {
     /// otherwise.
     #[arg(short = 'o', long, value_name = "FILE", help_heading = "Output")]
     pub out: Option<PathBuf>,
+    /// Write what the waves leave of the samples to this .wav, .npy or .csv file.
+    ///
+    /// That is each window's samples less its wave, and less the offsets of the first, in the unit of the rows. The file has a pair for each pair identified or
+    /// lost: 0 outside windows, and where the wave is lost. Of windows that overlap, the first that has a pair counts. It shows what makes
+    /// rows `misfit`, and whether `residual_rms` is noise. Only for one recording at a time.
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    pub residual: Option<PathBuf>,
     /// Which methods' results to show.
     ///
     /// With `all`, columns method1_… to method4_… follow in CSV and JSON lines; those that end in off_sigma are differences from the
@@ -154,6 +161,16 @@ impl Identify {
         if self.channels.is_some() && self.raw.is_none() {
             return Err(Failure::Usage(
                 "--channels is only for raw samples, with --raw FORMAT; choose the channels of WAV, NPY and text by --columns".to_owned(),
+            ));
+        }
+        Ok(())
+    }
+
+    /// Rejects `--residual` for several recordings, which would each need a file.
+    pub fn check_residual(&self) -> Result<(), Failure> {
+        if self.residual.is_some() && self.files.len() > 1 {
+            return Err(Failure::Usage(
+                "--residual is for one recording; identify each by itself".to_owned(),
             ));
         }
         Ok(())

@@ -11,6 +11,7 @@ mod rounded_offset;
 mod row_scatter;
 mod sampled_in_turn;
 mod silence;
+mod tones;
 
 use antinode::{Estimate, Flags, Settings};
 
@@ -27,9 +28,9 @@ use rounded_offset::RoundedOffset;
 use row_scatter::RowScatter;
 use sampled_in_turn::SampledInTurn;
 use silence::Silence;
+use tones::Tones;
 
 /// All checks of a recording.
-#[derive(Debug)]
 pub(super) struct Remarks {
     settings: Settings,
     converter_step: ConverterStep,
@@ -42,6 +43,7 @@ pub(super) struct Remarks {
     row_scatter: RowScatter,
     sampled_in_turn: SampledInTurn,
     silence: Silence,
+    tones: Tones,
     has_rows: bool,
     /// The smallest residual of the rows with a wave, and the frequency of the last one, Hz.
     residual: f32,
@@ -65,6 +67,7 @@ impl Remarks {
             row_scatter: RowScatter::new(settings.resolution),
             sampled_in_turn: SampledInTurn::default(),
             silence: Silence::default(),
+            tones: Tones::new(),
             has_rows: false,
             residual: f32::INFINITY,
             frequency: 0.0,
@@ -77,6 +80,12 @@ impl Remarks {
         self.equal_samples.see(pairs);
         self.few_values.see(pairs);
         self.cut_off.see(pairs);
+        self.tones.see(pairs);
+    }
+
+    /// Notes that pairs are lost before the next.
+    pub fn interrupt(&mut self) {
+        self.tones.interrupt();
     }
 
     /// Takes a row.
@@ -89,6 +98,7 @@ impl Remarks {
         self.sampled_in_turn.see(row, rate);
         self.pick_off_without_wave.see(row);
         self.cut_off.row(row.flags);
+        self.tones.row(row);
         self.has_rows = true;
         if !row.flags.contains(Flags::LOST) {
             self.residual = self.residual.min(row.residual_rms);
@@ -96,8 +106,13 @@ impl Remarks {
         }
     }
 
+    /// Whether the cause of misfits is told by a warning.
+    pub fn is_cause_known(&mut self) -> bool {
+        self.cause().is_some() || self.tones.cause(&self.settings).is_some()
+    }
+
     /// The cause of misfits and scatter, where it is certain.
-    pub fn cause(&mut self) -> Option<String> {
+    fn cause(&mut self) -> Option<String> {
         self.rounded_offset
             .warning()
             .or_else(|| self.mains_ripple.warning())
@@ -122,6 +137,17 @@ impl Remarks {
     ) -> impl Iterator<Item = String> {
         let has_option = self.settings.hum || self.settings.coloured;
         let constant = self.equal_samples.constant().filter(|_| self.has_rows);
+        let cause = self.cause();
+        let (scatter, tones) = if cause.is_some() {
+            (None, None)
+        } else {
+            let scatter = self.row_scatter.warning(has_option);
+            let tones = match scatter {
+                Some(_) => self.tones.warning(&self.settings),
+                None => self.tones.cause(&self.settings),
+            };
+            (scatter, tones)
+        };
         let is_same_known = self.has_warned_early || self.equal_samples.are_both_constant();
         [
             span.coarse_time(self.frequency),
@@ -129,8 +155,9 @@ impl Remarks {
             self.converter_step.warning(step, self.residual),
             self.few_values.warning().filter(|_| self.has_rows),
             self.cut_off.warning(self.residual),
-            self.cause()
-                .or_else(|| self.row_scatter.warning(has_option)),
+            cause,
+            scatter,
+            tones,
             self.sampled_in_turn.warning(),
             constant.or_else(|| self.pick_off_without_wave.warning()),
             self.equal_samples.same_twice().filter(|_| !is_same_known),

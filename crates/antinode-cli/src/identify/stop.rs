@@ -10,6 +10,7 @@ use antinode::Flags;
 
 use super::out::Out;
 use super::remarks::flag_counts::FlagCounts;
+use super::residual::Residual;
 use crate::failure::Failure;
 use crate::interrupt::on_interrupt;
 use crate::tell::tell;
@@ -26,16 +27,20 @@ pub(super) struct Stop {
 }
 
 impl Stop {
-    /// Installs the handler, once in a process; if the command does not end by itself, it cuts the rows' file short and exits.
-    pub fn new(out: &Out) -> Result<Self, Failure> {
+    /// Installs the handler, once in a process; if the command does not end by itself, it cuts the rows' file short, completes the
+    /// residual's, and exits.
+    pub fn new(out: &Out, residual: &Residual) -> Result<Self, Failure> {
         let stop = Self::default();
         let asked = stop.clone();
-        let out = out.clone();
+        let (out, residual) = (out.clone(), residual.clone());
         on_interrupt(move || {
             asked.is_asked.store(true, Ordering::Relaxed);
             thread::sleep(GRACE);
             asked.report(false);
             let _closed = out.cut_short();
+            if let Err(unwritten) = residual.finish() {
+                tell(format_args!("error: {unwritten}"));
+            }
             let failure = Failure::Stopped;
             tell(format_args!("error: {failure}"));
             process::exit(failure.code().into());

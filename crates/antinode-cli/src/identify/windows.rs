@@ -7,6 +7,7 @@ use antinode::{Estimate, SettingsError};
 use super::first_pairs::{FirstPairs, other_frequency, ramp};
 use super::options::{Identify, Shown};
 use super::remarks::Remarks;
+use super::residual::Residual;
 use super::search::Search;
 use super::search::unsearched_wave::alias;
 use super::span::{Span, Step};
@@ -41,6 +42,7 @@ pub(super) struct Windows<'a> {
     /// The pair after which a pipe, which may never end, gets its early warnings; `None` once they are given, and for a file.
     early: Option<u64>,
     stop: &'a Stop,
+    residual: &'a Residual,
 }
 
 impl<'a> Windows<'a> {
@@ -51,6 +53,7 @@ impl<'a> Windows<'a> {
         recording: &Recording,
         rate: f64,
         stop: &'a Stop,
+        residual: &'a Residual,
     ) -> Result<Self, Failure> {
         let settings = options.settings(rate, recording.full_scale(), recording.resolution());
         let core = Core::new(settings).map_err(|error| match error {
@@ -80,6 +83,7 @@ impl<'a> Windows<'a> {
             remarks: Remarks::new(options, recording, settings),
             early: is_pipe(recording).then(|| rate.clamp(EARLY_PAIRS[0], EARLY_PAIRS[1]) as u64),
             stop,
+            residual,
         })
     }
 
@@ -104,6 +108,8 @@ impl<'a> Windows<'a> {
                 }
                 Step::Lost(lost) => {
                     self.core.skip(lost);
+                    self.residual.skip(lost);
+                    self.remarks.interrupt();
                     if let Some(history) = &mut self.history {
                         history.skip(lost);
                     }
@@ -128,6 +134,7 @@ impl<'a> Windows<'a> {
                 self.search.look(new);
             }
             self.remarks.see(new);
+            self.residual.extend(new, self.span.offset());
             if let Some(history) = &mut self.history {
                 history.extend(new);
             }
@@ -167,6 +174,7 @@ impl<'a> Windows<'a> {
         let history = self.history.as_ref();
         let methods = history.and_then(|history| history.compare(estimate));
         self.remarks.row(estimate);
+        self.residual.row(estimate);
         self.stop.see(estimate.flags);
         let estimate = Estimate {
             time: estimate.time + self.span.offset(),
@@ -188,7 +196,7 @@ impl<'a> Windows<'a> {
         if matches!(flushed, Err(Failure::Closed)) {
             return flushed;
         }
-        self.stop.report(self.remarks.cause().is_some());
+        self.stop.report(self.remarks.is_cause_known());
         let first = self.first.rest();
         let mistaken = first.and_then(|first| self.begin(&first).err());
         let name = self.name;
@@ -201,6 +209,7 @@ impl<'a> Windows<'a> {
         for warning in late.into_iter().chain(span).chain(remarks).chain(scale) {
             tell(format_args!("warning: {name}: {warning}"));
         }
+        let unwritten = self.residual.finish().err();
         let failure = match fault {
             Some(error) => Some(error),
             None if flushed.is_err() => flushed.err(),
@@ -215,7 +224,7 @@ impl<'a> Windows<'a> {
         };
         let missing = [recording.lost(), recording.not_finite()];
         let missing = missing.into_iter().flatten();
-        let mut failures = missing.chain(mistaken).chain(failure);
+        let mut failures = missing.chain(mistaken).chain(unwritten).chain(failure);
         let Some(mut last) = failures.next() else {
             return Ok(());
         };

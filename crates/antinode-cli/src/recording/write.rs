@@ -16,6 +16,8 @@ pub struct RecordingWriter {
     whole: WholeFile,
     sample: SampleFormat,
     rate: f64,
+    /// Time of the first pair, s.
+    start: f64,
     output: Output,
     pairs: u64,
 }
@@ -37,9 +39,30 @@ impl RecordingWriter {
             whole,
             sample,
             rate,
+            start: 0.0,
             output,
             pairs: 0,
         })
+    }
+
+    /// The path, as it was given.
+    pub fn name(&self) -> &str {
+        self.whole.name()
+    }
+
+    /// Sets the time of the first pair, s, which text states.
+    pub fn count_time_from(&mut self, start: f64) {
+        self.start = start;
+    }
+
+    /// Fails if the format has no room for this many pairs.
+    pub fn check_room(&self, pairs: u64) -> Result<(), Failure> {
+        if pairs > 0 && self.output.is_full(self.sample, pairs - 1) {
+            return Err(self.error(format!(
+                "{pairs} sample pairs: a WAV file holds no more than 4 GiB; write a .npy file, or fewer pairs"
+            )));
+        }
+        Ok(())
     }
 
     /// Writes S_C and S_D: integers rounded to the nearest code and held at the rails, floats as they are.
@@ -58,7 +81,7 @@ impl RecordingWriter {
                 self.pairs
             )));
         }
-        let seconds = self.pairs as f64 / self.rate;
+        let seconds = self.start + self.pairs as f64 / self.rate;
         let written = self.output.write(self.sample, seconds, [c, d]);
         written.map_err(|fault| unwritable(self.whole.name(), &fault))?;
         self.pairs += 1;

@@ -24,6 +24,7 @@ mod port;
 mod port_monitor;
 mod reading;
 mod readme;
+mod residual;
 mod resonator;
 mod resonator_damping;
 mod resonator_driven;

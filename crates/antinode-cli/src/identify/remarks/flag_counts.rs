@@ -9,6 +9,11 @@ const MIN_OF_TENTH: u64 = 20;
 /// The same if they are more than half of all: a recording may have only a few long windows.
 const MIN_OF_HALF: u64 = 4;
 
+/// Whether so many of these rows have a flag that a remedy is named.
+pub fn are_many(flagged: u64, rows: u64) -> bool {
+    flagged >= MIN_OF_TENTH && 10 * flagged > rows || flagged >= MIN_OF_HALF && 2 * flagged > rows
+}
+
 /// Remedies for clipped rows.
 const CLIPPED_REMEDY: &str = "reduce the gain if an amplifier or the converter limits the wave, or give a larger --periods if a tone near \
                               three times the frequency is taken for its third harmonic";
@@ -90,9 +95,7 @@ impl FlagCounts {
             (self.clipped_alone, "clipped", CLIPPED_REMEDY.to_owned()),
             (circular, "circular", CIRCULAR_REMEDIES.to_owned()),
         ] {
-            if alone >= MIN_OF_TENTH && 10 * alone > rows
-                || alone >= MIN_OF_HALF && 2 * alone > rows
-            {
+            if are_many(alone, rows) {
                 warning += "; ";
                 if alone < flagged {
                     warning += &format!("{alone} have only {flag}: ");
@@ -118,7 +121,8 @@ impl FlagCounts {
             "if there is a second tone, give {coloured}a --periods that holds several of its beats with the wave; "
         );
         warning
-            + "if the frequency drifts or the pattern turns far within a window, give a smaller --periods"
+            + "if the frequency drifts or the pattern turns far within a window, give a smaller --periods; --residual FILE shows what the waves \
+               leave of the samples"
     }
 }
 

@@ -1,0 +1,341 @@
+//! Tones beside the wave, by the spectrum of the samples: they are named where rows are misfits, or scatter otherwise than they state.
+
+mod spectrum;
+
+use std::f64::consts::FRAC_1_PI;
+use std::fmt;
+
+use antinode::{Estimate, Flags, Settings};
+
+use super::super::MAX_PERIODS;
+use super::flag_counts::are_many;
+use crate::digits::significant;
+use spectrum::{Line, Spectrum};
+
+/// Pairs in a spectrum, and fewest of a recording that is too short for that.
+const LENGTH: usize = 1 << 15;
+const MIN_LENGTH: usize = 1 << 10;
+/// Spectra of the first samples, and most of all: the others are of misfits.
+const FIRST: u32 = 4;
+const MOST: u32 = 32;
+/// Lines on either side of the wave's that may be its own.
+const OWN_LINES: f64 = 10.0;
+/// Least power of a tone that is named, as a share of all power beside the wave.
+const MIN_SHARE: f64 = 0.05;
+/// Most tones named.
+const MAX_NAMED: usize = 3;
+/// Highest harmonic that is named as such, and how many lines off it is seen at most.
+const MAX_HARMONIC: u32 = 9;
+const SAME_LINES: f64 = 1.5;
+/// Periods of the wave in one of hum, at least, for `--hum` to remove it: 13 blocks of two periods.
+const HUM_PERIODS: f64 = 26.0;
+/// Beats with the wave that a window holds if a tone does no harm, and its fewest periods for `--coloured`, with a hop or without.
+const BEATS: f64 = 3.2;
+const MIN_PERIODS: f64 = 10.0;
+
+/// The spectrum of the first samples and of misfits, and what rows tell of the wave.
+pub(super) struct Tones {
+    /// The last pairs, up to two spectra of them.
+    recent: Vec<[f32; 2]>,
+    spectrum: Spectrum,
+    rows: u64,
+    /// Rows with a wave, the mean of their frequencies, Hz, and how fast the last pattern turned, rad/s.
+    waves: u64,
+    frequency: f64,
+    angle_rate: f64,
+    /// Rows with this flag alone.
+    misfits: u64,
+}
+
+impl Tones {
+    pub fn new() -> Self {
+        Self {
+            recent: Vec::new(),
+            spectrum: Spectrum::new(LENGTH),
+            rows: 0,
+            waves: 0,
+            frequency: 0.0,
+            angle_rate: 0.0,
+            misfits: 0,
+        }
+    }
+
+    /// Takes the next pairs.
+    pub fn see(&mut self, pairs: &[[f32; 2]]) {
+        self.recent.extend(pairs);
+        if self.spectrum.count() < FIRST {
+            while self.recent.len() >= LENGTH {
+                self.spectrum.add(&self.recent[..LENGTH]);
+                self.recent.drain(..LENGTH);
+            }
+        } else if self.recent.len() >= 2 * LENGTH {
+            self.recent.drain(..self.recent.len() - LENGTH);
+        }
+    }
+
+    /// Notes that pairs are lost before the next.
+    pub fn interrupt(&mut self) {
+        self.recent.clear();
+    }
+
+    /// Takes a row.
+    pub fn row(&mut self, row: &Estimate) {
+        self.rows += 1;
+        if row.flags.contains(Flags::LOST) {
+            return;
+        }
+        self.waves += 1;
+        self.frequency += (row.frequency - self.frequency) / self.waves as f64;
+        self.angle_rate = row.angle_rate.into();
+        self.misfits += u64::from(row.flags == Flags::MISFIT);
+        if row.flags.contains(Flags::MISFIT)
+            && self.spectrum.count() < MOST
+            && let Some(from) = self.recent.len().checked_sub(LENGTH)
+        {
+            self.spectrum.add(&self.recent[from..]);
+            self.recent.clear();
+        }
+    }
+
+    /// A warning that names the tones that stand out, if many rows are misfits; harmonics of the wave alone make none.
+    pub fn cause(&mut self, settings: &Settings) -> Option<String> {
+        if !self.are_misfits_many() {
+            return None;
+        }
+        let tones = self.tones(settings.sample_rate);
+        let is_other = tones.iter().any(|tone| tone.harmonic.is_none());
+        is_other.then(|| self.told(&tones, settings)).flatten()
+    }
+
+    /// A warning that names the tones that stand out.
+    pub fn warning(&mut self, settings: &Settings) -> Option<String> {
+        let tones = self.tones(settings.sample_rate);
+        self.told(&tones, settings)
+    }
+
+    fn are_misfits_many(&self) -> bool {
+        are_many(self.misfits, self.rows)
+    }
+
+    /// The tones that stand out of samples taken at this rate, Hz; the strongest first.
+    fn tones(&mut self, rate: f64) -> Vec<Tone> {
+        self.take_what_there_is();
+        let step = rate / self.spectrum.length() as f64;
+        let own = OWN_LINES + self.angle_rate.abs() * FRAC_1_PI / step;
+        let place = self.frequency / step;
+        let mut lines = self.spectrum.stand_out(place, own, MIN_SHARE);
+        lines.truncate(MAX_NAMED);
+        let folded = |order: u32| {
+            let turns = f64::from(order) * self.frequency / rate;
+            (turns - turns.round()).abs() * rate
+        };
+        let tone = |line: Line| {
+            let hertz = line.place * step;
+            let is_this = |&order: &u32| (folded(order) - hertz).abs() < SAME_LINES * step;
+            Tone {
+                hertz,
+                step,
+                amplitudes: line.amplitudes,
+                harmonic: (2..=MAX_HARMONIC).find(is_this),
+            }
+        };
+        lines.into_iter().map(tone).collect()
+    }
+
+    /// Takes the spectrum of a recording that is too short for others.
+    fn take_what_there_is(&mut self) {
+        let power = self.recent.len().checked_ilog2();
+        let length = power.map_or(0, |power| 1 << power);
+        if self.spectrum.count() == 0 && length >= MIN_LENGTH {
+            self.spectrum = Spectrum::new(length);
+            self.spectrum.add(&self.recent[..length]);
+        }
+    }
+
+    /// The warning about these tones, with a remedy in options beside these settings; none if there are none.
+    fn told(&self, tones: &[Tone], settings: &Settings) -> Option<String> {
+        let (last, others) = tones.split_last()?;
+        let remedy = self.remedy(tones, settings);
+        Some(if others.is_empty() {
+            format!("beside the wave there is a tone of {last}: remove its cause{remedy}")
+        } else {
+            let others: Vec<String> = others.iter().map(Tone::to_string).collect();
+            format!(
+                "beside the wave there are tones of {} and of {last}: remove their causes{remedy}",
+                others.join(", of ")
+            )
+        })
+    }
+
+    /// What else to do about these tones; empty if nothing.
+    fn remedy(&self, tones: &[Tone], settings: &Settings) -> String {
+        let is_hum = tones
+            .iter()
+            .all(|tone| tone.hertz * HUM_PERIODS < self.frequency);
+        if is_hum {
+            let is_removed = settings.hum || settings.coloured;
+            return if is_removed { "" } else { ", or give --hum" }.to_owned();
+        }
+        let away = tones.iter().map(|tone| (tone.hertz - self.frequency).abs());
+        let nearest = away.fold(f64::INFINITY, f64::min);
+        let periods = (BEATS * self.frequency / nearest).ceil().max(MIN_PERIODS);
+        let is_possible = periods <= f64::from(MAX_PERIODS);
+        if is_possible && periods > f64::from(settings.periods) {
+            let coloured = if settings.coloured {
+                ""
+            } else {
+                "--coloured and "
+            };
+            format!(
+                ", or give {coloured}--periods {periods}, so that a window holds several beats with the wave"
+            )
+        } else if is_possible && self.are_misfits_many() && !settings.coloured {
+            ", or give --coloured".to_owned()
+        } else {
+            String::new()
+        }
+    }
+}
+
+/// A tone beside the wave.
+struct Tone {
+    /// Its frequency, and the distance between the spectrum's lines, Hz.
+    hertz: f64,
+    step: f64,
+    /// Its amplitudes in S_C and in S_D.
+    amplitudes: [f64; 2],
+    /// Which harmonic of the wave it is, if any.
+    harmonic: Option<u32>,
+}
+
+impl fmt::Display for Tone {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // A tenth of the distance between lines.
+        let decimals = (1.0 - self.step.log10().floor()).clamp(0.0, 9.0) as usize;
+        write!(f, "{:.decimals$} Hz (", self.hertz)?;
+        if let Some(order) = self.harmonic {
+            write!(f, "{order}f, ")?;
+        }
+        let [c, d] = self.amplitudes.map(|amplitude| significant(amplitude, 2));
+        write!(f, "amplitude {c} in C, {d} in D)")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::super::row_scatter::tests::row;
+    use super::*;
+    use crate::deviates::Deviates;
+
+    const RATE: f64 = 1e5;
+
+    /// The cause told for a wave of 5332 Hz beside tones of these frequencies, Hz, and amplitudes; of its rows one in `every` is a misfit.
+    fn cause(tones: &[(f64, f64)], every: u64, settings: &Settings) -> Option<String> {
+        let mut seen = Tones::new();
+        let mut deviates = Deviates(3);
+        for index in 0..300u64 {
+            let pairs = (200 * index..200 * (index + 1)).map(|k| {
+                let of = |(hertz, amplitude): &(f64, f64)| {
+                    amplitude * (TAU * hertz / RATE * k as f64).cos()
+                };
+                let all = tones.iter().chain([&(5332.0, 0.6)]).map(of).sum::<f64>();
+                [all as f32, (1e-3 * deviates.draw()) as f32]
+            });
+            seen.see(&pairs.collect::<Vec<_>>());
+            let mut row = row(index, 1.0, &mut deviates);
+            if index % every == 0 {
+                row.flags = Flags::MISFIT;
+            }
+            seen.row(&row);
+        }
+        seen.cause(settings)
+    }
+
+    #[test]
+    fn only_many_misfits_are_explained_and_not_by_harmonics_alone() {
+        let settings = Settings::new(RATE);
+        let tone = (9000.0, 0.01);
+        let told = cause(&[tone], 2, &settings).unwrap();
+        let start = "beside the wave there is a tone of 9000.0 Hz (amplitude 0.01 in C, 0.0000";
+        let end = " in D): remove its cause, or give --coloured";
+        assert!(told.starts_with(start) && told.ends_with(end), "{told}");
+        assert_eq!(cause(&[tone], 20, &settings), None);
+        assert_eq!(cause(&[], 2, &settings), None);
+        let harmonic = (2.0 * 5332.0, 0.02);
+        assert_eq!(cause(&[harmonic], 2, &settings), None);
+        let told = cause(&[harmonic, tone], 2, &settings).unwrap();
+        assert!(
+            told.contains("there are tones of 10664.0 Hz (2f, amplitude 0.02 in C, "),
+            "{told}"
+        );
+        assert!(
+            told.contains(" in D) and of 9000.0 Hz (amplitude 0.01 in C, "),
+            "{told}"
+        );
+        // The eighteenth, folded to 4024 Hz, is too high to be told as one.
+        let told = cause(&[(9.0 * 5332.0, 0.01), (4024.0, 0.004)], 2, &settings);
+        let told = told.unwrap();
+        assert!(
+            told.contains("47988.0 Hz (9f, ") && told.contains("4024.0 Hz (amplitude"),
+            "{told}"
+        );
+    }
+
+    #[test]
+    fn the_remedy_is_what_is_not_given_yet() {
+        let near = (5332.0 + 320.0, 0.01);
+        let given = |periods, hum, coloured| Settings {
+            periods,
+            hum,
+            coloured,
+            ..Settings::new(RATE)
+        };
+        for (tones, settings, remedy) in [
+            (
+                vec![near],
+                given(10, true, false),
+                "--coloured and --periods 54, ",
+            ),
+            (vec![near], given(53, false, true), "or give --periods 54, "),
+            (vec![near], given(54, false, false), "or give --coloured"),
+            (vec![near], given(54, false, true), "remove its cause"),
+            (
+                vec![near, (8000.0, 0.02)],
+                given(54, false, true),
+                "remove their causes",
+            ),
+            (
+                vec![(50.0, 0.01), (150.0, 0.01)],
+                given(10, false, false),
+                "or give --hum",
+            ),
+            (
+                vec![(50.0, 0.01)],
+                given(10, true, false),
+                "remove its cause",
+            ),
+            (
+                vec![(50.0, 0.01)],
+                given(10, false, true),
+                "remove its cause",
+            ),
+            (
+                vec![(50.0, 0.01), (900.0, 0.01)],
+                given(10, true, false),
+                "or give --coloured",
+            ),
+            (
+                vec![(900.0, 0.01)],
+                given(5, true, true),
+                "or give --periods 10, ",
+            ),
+        ] {
+            let told = cause(&tones, 1, &settings).unwrap();
+            assert!(told.contains(remedy), "{tones:?}: {told}");
+            let is_end = !remedy.ends_with(' ');
+            assert_eq!(told.ends_with(remedy), is_end, "{tones:?}: {told}");
+        }
+    }
+}

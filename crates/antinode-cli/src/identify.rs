@@ -68,7 +68,10 @@ pub fn run(options: &Identify) -> Result<(), Failure> {
         let flushed = rows.flush().map_err(Failure::from);
         let error = match flushed.and(result) {
             Ok(()) => continue,
-            Err(Failure::Closed) => return Err(Failure::Closed),
+            Err(Failure::Closed) => {
+                residual.leave();
+                return Err(Failure::Closed);
+            }
             Err(error) => error,
         };
         let is_last = matches!(error, Failure::Stopped | Failure::Unwritten(_));

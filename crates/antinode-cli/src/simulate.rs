@@ -77,6 +77,7 @@ fn write(options: &Simulate, gyro: Gyro, truth: &Truth, beside: &Path) -> Result
     // Unfinished files are removed when they are dropped, but not if the process is killed.
     let interrupted = interrupted()?;
     let mut writer = RecordingWriter::create(&options.out, options.rate, options.sample)?;
+    writer.check_room(truth.sample_pairs)?;
     let text = serde_json::to_string_pretty(truth).map_err(io::Error::from)?;
     // Written before the samples, so that a failure shows at once and not after a long recording.
     let beside = WholeFile::text(beside, &(text + "\n"))?;

@@ -100,6 +100,16 @@ impl Residual {
         open.map_or(Ok(()), Open::finish)
     }
 
+    /// Leaves the file unwritten, if there is one, as nobody reads the rows any more.
+    pub fn leave(&self) {
+        if let Some(open) = self.lock().take() {
+            tell(format_args!(
+                "{}: not written, as the rows' reader has gone; write the rows to a file with --out",
+                open.writer.name()
+            ));
+        }
+    }
+
     fn lock(&self) -> MutexGuard<'_, Option<Open>> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }

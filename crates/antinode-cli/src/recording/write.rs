@@ -57,12 +57,13 @@ impl RecordingWriter {
 
     /// Fails if the format has no room for this many pairs.
     pub fn check_room(&self, pairs: u64) -> Result<(), Failure> {
-        if pairs > 0 && self.output.is_full(self.sample, pairs - 1) {
-            return Err(self.error(format!(
-                "{pairs} sample pairs: a WAV file holds no more than 4 GiB; write a .npy file, or fewer pairs"
-            )));
+        if self.output.holds(self.sample, pairs) {
+            return Ok(());
         }
-        Ok(())
+        Err(Failure::Usage(format!(
+            "{}: {pairs} sample pairs: a WAV file holds no more than 4 GiB; write a .npy file, or fewer pairs",
+            self.name()
+        )))
     }
 
     /// Writes S_C and S_D: integers rounded to the nearest code and held at the rails, floats as they are.
@@ -75,12 +76,7 @@ impl RecordingWriter {
                 self.pairs, CHANNELS[channel], pair[channel]
             )));
         };
-        if self.output.is_full(self.sample, self.pairs) {
-            return Err(self.error(format!(
-                "after {} sample pairs: a WAV file holds no more than 4 GiB; write a .npy file, or fewer pairs",
-                self.pairs
-            )));
-        }
+        self.check_room(self.pairs + 1)?;
         let seconds = self.start + self.pairs as f64 / self.rate;
         let written = self.output.write(self.sample, seconds, [c, d]);
         written.map_err(|fault| unwritable(self.whole.name(), &fault))?;

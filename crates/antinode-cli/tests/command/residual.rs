@@ -7,11 +7,11 @@ use std::path::Path;
 #[cfg(unix)]
 use std::process::{Command, Stdio};
 
-#[cfg(unix)]
-use crate::common::send;
 use crate::common::{
     RATE, Row, Run, WAVE, Wave, done, raw, rms, run, run_with, silence, text, wav,
 };
+#[cfg(unix)]
+use crate::common::{send, shell};
 
 /// The lines of a residual in text: times and both signals.
 fn lines(path: &Path) -> Vec<[f64; 3]> {
@@ -256,6 +256,24 @@ fn what_cannot_be_written_is_refused() {
     }
     assert_eq!(fs::read_dir(here).unwrap().count(), 2);
     assert_eq!(fs::read(here.join("b.wav")).unwrap(), recording);
+}
+
+#[cfg(unix)]
+#[test]
+fn it_is_not_written_without_a_reader_of_the_rows() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    fs::write(here.join("a.wav"), wav(&WAVE.codes(500_000))).unwrap();
+    let run = shell(
+        here,
+        "\"$antinode\" identify a.wav --residual left.wav | head -n 1",
+    );
+    let told = String::from_utf8(run.stderr).unwrap();
+    assert!(
+        told.starts_with("left.wav: not written, as the rows' reader has gone; "),
+        "{told}"
+    );
+    assert_eq!(fs::read_dir(here).unwrap().count(), 1);
 }
 
 #[cfg(unix)]

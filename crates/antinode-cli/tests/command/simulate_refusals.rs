@@ -23,6 +23,10 @@ fn options_that_make_no_sense_are_refused() {
         ("-o a.wav --seconds nan", "--seconds: NaN s"),
         ("-o a.wav --seconds 1e9", "1e12 sample pairs"),
         (
+            "-o a.wav --seconds 2e4",
+            "a.wav: 2000000000 sample pairs: a WAV file holds no more than 4 GiB; write a .npy file",
+        ),
+        (
             "-o a.wav --main-amplitude 0",
             "--main-amplitude: it must be",
         ),

@@ -137,10 +137,10 @@ impl Output {
         })
     }
 
-    /// Whether the format has no room for one more pair.
-    pub fn is_full(&self, sample: SampleFormat, pairs: u64) -> bool {
-        let limited = matches!(self, Self::Wav(_));
-        limited && (pairs + 1).saturating_mul(sample.pair_bytes()) > MAX_WAV_DATA
+    /// Whether the format has room for this many pairs.
+    pub fn holds(&self, sample: SampleFormat, pairs: u64) -> bool {
+        let is_limited = matches!(self, Self::Wav(_));
+        !is_limited || pairs.saturating_mul(sample.pair_bytes()) <= MAX_WAV_DATA
     }
 
     /// Writes a pair, as it is stored, and in text its time.

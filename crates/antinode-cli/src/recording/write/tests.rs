@@ -158,11 +158,10 @@ fn a_full_wav_file_can_still_be_finished() {
     let mut writer = RecordingWriter::create(&path, 1e5, SampleFormat::I16).unwrap();
     writer.write([0.5, 0.5]).unwrap();
     writer.pairs = MAX_WAV_DATA / 4;
+    assert!(writer.check_room(writer.pairs).is_ok());
     let fault = writer.write([0.5, 0.5]).unwrap_err().to_string();
     assert!(
-        fault.contains(
-            "a.wav: after 1073741808 sample pairs: a WAV file holds no more than 4 GiB; "
-        ),
+        fault.contains("a.wav: 1073741809 sample pairs: a WAV file holds no more than 4 GiB; "),
         "{fault}"
     );
     writer.finish().unwrap();

@@ -29,8 +29,9 @@ const MAX_HARMONIC: u32 = 9;
 const SAME_LINES: f64 = 1.5;
 /// Periods of the wave in one of hum, at least, for `--hum` to remove it: 13 blocks of two periods.
 const HUM_PERIODS: f64 = 26.0;
-/// Beats with the wave that a window holds if a tone does no harm, and its fewest periods for `--coloured`, with a hop or without.
+/// Beats with the wave, and with its third harmonic, that a window holds if a tone does no harm, and its fewest periods for `--coloured`, with a hop or without.
 const BEATS: f64 = 3.2;
+const THIRD_BEATS: f64 = 1.1;
 const MIN_PERIODS: f64 = 10.0;
 
 /// The spectrum of the first samples and of misfits, and what rows tell of the wave.
@@ -43,8 +44,9 @@ pub(super) struct Tones {
     waves: u64,
     frequency: f64,
     angle_rate: f64,
-    /// Rows with this flag alone.
+    /// Rows with one of these flags alone.
     misfits: u64,
+    clipped: u64,
 }
 
 impl Tones {
@@ -57,6 +59,7 @@ impl Tones {
             frequency: 0.0,
             angle_rate: 0.0,
             misfits: 0,
+            clipped: 0,
         }
     }
 
@@ -88,6 +91,7 @@ impl Tones {
         self.frequency += (row.frequency - self.frequency) / self.waves as f64;
         self.angle_rate = row.angle_rate.into();
         self.misfits += u64::from(row.flags == Flags::MISFIT);
+        self.clipped += u64::from(row.flags == Flags::CLIPPED);
         if row.flags.contains(Flags::MISFIT)
             && self.spectrum.count() < MOST
             && let Some(from) = self.recent.len().checked_sub(LENGTH)
@@ -97,14 +101,20 @@ impl Tones {
         }
     }
 
-    /// A warning that names the tones that stand out, if many rows are misfits; harmonics of the wave alone make none.
+    /// A warning that names the tones that stand out, if many rows are misfits, which harmonics of the wave alone do not make, or clipped,
+    /// for which a tone near the third is taken.
     pub fn cause(&mut self, settings: &Settings) -> Option<String> {
-        if !self.are_misfits_many() {
+        let misfits = self.are_misfits_many();
+        let clipped = are_many(self.clipped, self.rows);
+        if !misfits && !clipped {
             return None;
         }
         let tones = self.tones(settings.sample_rate);
-        let is_other = tones.iter().any(|tone| tone.harmonic.is_none());
-        is_other.then(|| self.told(&tones, settings)).flatten()
+        let is_cause = |tone: &Tone| {
+            misfits && tone.harmonic.is_none() || clipped && self.is_near_third(tone, settings)
+        };
+        let is_any = tones.iter().any(is_cause);
+        is_any.then(|| self.told(&tones, settings)).flatten()
     }
 
     /// A warning that names the tones that stand out.
@@ -125,13 +135,10 @@ impl Tones {
         let place = self.frequency / step;
         let mut lines = self.spectrum.stand_out(place, own, MIN_SHARE);
         lines.truncate(MAX_NAMED);
-        let folded = |order: u32| {
-            let turns = f64::from(order) * self.frequency / rate;
-            (turns - turns.round()).abs() * rate
-        };
         let tone = |line: Line| {
             let hertz = line.place * step;
-            let is_this = |&order: &u32| (folded(order) - hertz).abs() < SAME_LINES * step;
+            let is_this =
+                |&order: &u32| (self.harmonic(order, rate) - hertz).abs() < SAME_LINES * step;
             Tone {
                 hertz,
                 step,
@@ -140,6 +147,18 @@ impl Tones {
             }
         };
         lines.into_iter().map(tone).collect()
+    }
+
+    /// The frequency of a harmonic of the wave, Hz, as samples taken at this rate, Hz, show it.
+    fn harmonic(&self, order: u32, rate: f64) -> f64 {
+        let turns = f64::from(order) * self.frequency / rate;
+        (turns - turns.round()).abs() * rate
+    }
+
+    /// Whether a window cannot tell a tone from the third harmonic.
+    fn is_near_third(&self, tone: &Tone, settings: &Settings) -> bool {
+        let apart = tone.hertz - self.harmonic(3, settings.sample_rate);
+        tone.harmonic.is_none() && apart.abs() * f64::from(settings.periods) < self.frequency
     }
 
     /// Takes the spectrum of a recording that is too short for others.
@@ -176,19 +195,27 @@ impl Tones {
             let is_removed = settings.hum || settings.coloured;
             return if is_removed { "" } else { ", or give --hum" }.to_owned();
         }
-        let away = tones.iter().map(|tone| (tone.hertz - self.frequency).abs());
-        let nearest = away.fold(f64::INFINITY, f64::min);
-        let periods = (BEATS * self.frequency / nearest).ceil().max(MIN_PERIODS);
+        let is_third = |tone: &Tone| self.is_near_third(tone, settings);
+        let third = self.harmonic(3, settings.sample_rate);
+        let wanted = tones.iter().map(|tone| {
+            let (from, beats) = if is_third(tone) {
+                (third, THIRD_BEATS)
+            } else {
+                (self.frequency, BEATS)
+            };
+            beats * self.frequency / (tone.hertz - from).abs()
+        });
+        let periods = wanted.fold(MIN_PERIODS, f64::max).ceil();
         let is_possible = periods <= f64::from(MAX_PERIODS);
         if is_possible && periods > f64::from(settings.periods) {
-            let coloured = if settings.coloured {
-                ""
+            let (coloured, whose) = if tones.iter().all(is_third) {
+                ("", "a beat with its third harmonic")
+            } else if settings.coloured {
+                ("", "several beats with it")
             } else {
-                "--coloured and "
+                ("--coloured and ", "several beats with it")
             };
-            format!(
-                ", or give {coloured}--periods {periods}, so that a window holds several beats with the wave"
-            )
+            format!(", or give {coloured}--periods {periods}, so that a window holds {whose}")
         } else if is_possible && self.are_misfits_many() && !settings.coloured {
             ", or give --coloured".to_owned()
         } else {
@@ -325,6 +352,11 @@ mod tests {
                 vec![(50.0, 0.01), (900.0, 0.01)],
                 given(10, true, false),
                 "or give --coloured",
+            ),
+            (
+                vec![(3.0 * 5332.0 - 120.0, 0.01)],
+                given(10, false, false),
+                "or give --periods 49, so that a window holds a beat with its third harmonic",
             ),
             (
                 vec![(900.0, 0.01)],

@@ -101,7 +101,7 @@ fn it_has_a_pair_for_each_pair_in_its_place() {
     for (arguments, first) in [
         ("", 0),
         ("--from 0.1 --to 0.25", 10_000),
-        ("--periods 100 --hop 20", 0),
+        ("--periods 200 --hop 40", 0),
     ] {
         let _ = fs::remove_file(here.join("left.csv"));
         done(

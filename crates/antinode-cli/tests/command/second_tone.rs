@@ -172,6 +172,10 @@ fn a_tone_is_named_in_few_samples_and_where_it_begins_late() {
         "{}",
         told.err
     );
+    // Nothing is told of fewer pairs than a spectrum needs.
+    record_at(6200.0, here, 1000, 0.0006, 0.02);
+    let (told, _, flagged) = identified(here, "");
+    assert!(flagged > 3 && told.err.contains("if there is a second tone"));
     let mut codes = Wave {
         noise: 0.0006,
         ..STEADY

@@ -89,6 +89,9 @@ impl Spectrum {
 
     /// The lines that stand out with at least this share of the power of all lines; those within `excluded` lines of `wave` are left out.
     pub fn stand_out(&self, wave: f64, excluded: f64, share: f64) -> Vec<Line> {
+        if self.spectra == 0 {
+            return Vec::new();
+        }
         let powers: Vec<f64> = self.powers.iter().map(|[c, d]| c + d).collect();
         let is_asked = |k: &usize| (*k as f64 - wave).abs() > excluded;
         let total: f64 = (SKIPPED..powers.len())
@@ -222,6 +225,7 @@ mod tests {
     fn what_is_not_finite_is_left_out() {
         let mut pairs = pairs(2048, 0.01, 1, &[(0.1, [0.5, 0.0])]);
         pairs[700][1] = f32::NAN;
+        assert_eq!(of(2048, &pairs).stand_out(500.0, 10.0, 0.0).len(), 0);
         let mut spectrum = of(1024, &pairs);
         assert_eq!(spectrum.count(), 1);
         spectrum.add(&pairs[..1024]);

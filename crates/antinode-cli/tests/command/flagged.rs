@@ -5,12 +5,12 @@ use std::fs;
 #[cfg(unix)]
 use std::{
     io::{BufRead, BufReader, Read, Write},
-    process::{Child, ChildStdin, ChildStdout, Command, Stdio},
+    process::{Child, ChildStdin, ChildStdout, Command},
 };
 
-#[cfg(unix)]
-use crate::common::send;
 use crate::common::{RATE, Row, WAVE, beside_flagged, done, identified, run, run_with, wav};
+#[cfg(unix)]
+use crate::common::{piped, send};
 
 /// A wave with a gap in it.
 fn torn() -> Vec<u8> {
@@ -102,13 +102,7 @@ impl Begun {
     const GIVEN: usize = 150_000;
 
     fn new(command: &mut Command) -> Self {
-        let mut child = command
-            .args(["identify", "-", "--output", "csv"])
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
+        let mut child = piped(command.args(["identify", "-", "--output", "csv"]));
         let mut input = child.stdin.take().unwrap();
         input.write_all(&torn()[..Self::GIVEN]).unwrap();
         let mut rows = BufReader::new(child.stdout.take().unwrap());

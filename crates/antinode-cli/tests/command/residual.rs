@@ -5,13 +5,13 @@ use std::fs;
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
 #[cfg(unix)]
-use std::process::{Command, Stdio};
+use std::process::Command;
 
 use crate::common::{
     RATE, Row, Run, WAVE, Wave, done, raw, rms, run, run_with, silence, text, wav,
 };
 #[cfg(unix)]
-use crate::common::{send, shell};
+use crate::common::{interrupted, piped, shell};
 
 /// The lines of a residual in text: times and both signals.
 fn lines(path: &Path) -> Vec<[f64; 3]> {
@@ -281,15 +281,12 @@ fn it_is_not_written_without_a_reader_of_the_rows() {
 fn an_interruption_completes_it() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    let mut child = Command::new(env!("CARGO_BIN_EXE_antinode"))
-        .args(["identify", "-", "--raw", "i16", "--rate", "1e5"])
-        .args(["--residual", "left.csv", "--output", "csv"])
-        .current_dir(here)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
+    let mut child = piped(
+        Command::new(env!("CARGO_BIN_EXE_antinode"))
+            .args(["identify", "-", "--raw", "i16", "--rate", "1e5"])
+            .args(["--residual", "left.csv", "--output", "csv"])
+            .current_dir(here),
+    );
     let mut input = child.stdin.take().unwrap();
     input.write_all(&raw(&WAVE.codes(20_000))).unwrap();
     let mut rows = BufReader::new(child.stdout.take().unwrap());
@@ -297,11 +294,7 @@ fn an_interruption_completes_it() {
     while !table.contains("\n0.15") {
         assert_ne!(rows.read_line(&mut table).unwrap(), 0);
     }
-    send("-INT", &child);
-    let output = child.wait_with_output().unwrap();
-    drop(input);
-    assert_eq!(output.status.code(), Some(130));
-    let told = String::from_utf8(output.stderr).unwrap();
+    let told = interrupted(child, input);
     assert!(
         told.contains("left.csv: ") && told.contains("error: interrupted"),
         "{told}"

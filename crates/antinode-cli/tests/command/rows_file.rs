@@ -122,11 +122,11 @@ mod windows {
 #[cfg(unix)]
 mod unix {
     use std::os::unix::fs::PermissionsExt;
-    use std::process::{Command, Stdio};
+    use std::process::Command;
     use std::time::{Duration, Instant};
 
     use super::*;
-    use crate::common::{send, shell};
+    use crate::common::{interrupted, piped, shell};
 
     #[test]
     fn an_interruption_leaves_the_rows_of_what_was_read() {
@@ -134,15 +134,13 @@ mod unix {
         let here = directory.path();
         recordings(here);
         let all = run(here, "identify a.wav --output csv").out;
-        let mut child = Command::new(env!("CARGO_BIN_EXE_antinode"))
-            .current_dir(here)
-            .args(["identify", "a.wav", "-", "-o", "rows.csv"])
-            .stdin(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
+        let mut child = piped(
+            Command::new(env!("CARGO_BIN_EXE_antinode"))
+                .current_dir(here)
+                .args(["identify", "a.wav", "-", "-o", "rows.csv"]),
+        );
         // Standard input stays open until the command has ended.
-        let input = child.stdin.take();
+        let input = child.stdin.take().unwrap();
         // Wait until the rows of the first recording are written; the command waits for the second.
         let begun = Instant::now();
         let written = || {
@@ -155,11 +153,7 @@ mod unix {
         while !written() {
             assert!(begun.elapsed() < Duration::from_secs(10));
         }
-        send("-INT", &child);
-        let output = child.wait_with_output().unwrap();
-        drop(input);
-        assert_eq!(output.status.code(), Some(130));
-        let told = String::from_utf8(output.stderr).unwrap();
+        let told = interrupted(child, input);
         assert!(
             told.ends_with("rows.csv: the rows up to this point are written\nerror: interrupted; the rows printed so far are good\n"),
             "{told}"

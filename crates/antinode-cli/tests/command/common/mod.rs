@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 use std::fs;
 use std::path::Path;
 #[cfg(unix)]
-use std::process::{self, Child, Output};
+use std::process::{self, Child, ChildStdin, Output, Stdio};
 
 use assert_cmd::Command;
 
@@ -55,6 +55,23 @@ pub fn send(signal: &str, child: &Child) {
         .args(["-c", "kill \"$0\" \"$1\"", signal, &child.id().to_string()])
         .status();
     assert!(sent.unwrap().success());
+}
+
+/// Starts a command, with pipes to and from it.
+#[cfg(unix)]
+pub fn piped(command: &mut process::Command) -> Child {
+    let command = command.stdin(Stdio::piped()).stdout(Stdio::piped());
+    command.stderr(Stdio::piped()).spawn().unwrap()
+}
+
+/// Interrupts a command whose input is open; gives what it told.
+#[cfg(unix)]
+pub fn interrupted(child: Child, input: ChildStdin) -> String {
+    send("-INT", &child);
+    let output = child.wait_with_output().unwrap();
+    drop(input);
+    assert_eq!(output.status.code(), Some(130));
+    String::from_utf8(output.stderr).unwrap()
 }
 
 /// Files in a directory.

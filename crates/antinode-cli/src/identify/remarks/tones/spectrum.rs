@@ -24,6 +24,8 @@ const OVER_MEDIAN: f64 = 12.0;
 /// The mean of the spectra of S_C and S_D, all of one length.
 pub(super) struct Spectrum {
     transform: Arc<dyn Fft<f64>>,
+    /// The window, per pair.
+    weights: Vec<f64>,
     spectra: u32,
     /// Sums of the powers of S_C and of S_D, per line.
     powers: Vec<[f64; 2]>,
@@ -41,8 +43,16 @@ pub(super) struct Line {
 impl Spectrum {
     /// No spectra yet, each of `length` pairs, an even number.
     pub fn new(length: usize) -> Self {
+        let weight = |k: usize| {
+            let turns = (k as f64 + 0.5) / length as f64;
+            let terms = WINDOW.iter().zip(0u8..);
+            terms
+                .map(|(by, order)| by * (TAU * turns * f64::from(order)).cos())
+                .sum()
+        };
         Self {
             transform: FftPlanner::new().plan_fft_forward(length),
+            weights: (0..length).map(weight).collect(),
             spectra: 0,
             powers: vec![[0.0; 2]; length / 2],
         }
@@ -69,12 +79,7 @@ impl Spectrum {
         if !mean.is_finite() {
             return;
         }
-        for (k, line) in lines.iter_mut().enumerate() {
-            let turns = (k as f64 + 0.5) / length as f64;
-            let terms = WINDOW.iter().zip(0u8..);
-            let weight: f64 = terms
-                .map(|(by, k)| by * (TAU * turns * f64::from(k)).cos())
-                .sum();
+        for (line, weight) in lines.iter_mut().zip(&self.weights) {
             *line = (*line - mean) * weight;
         }
         self.transform.process(&mut lines);

@@ -162,7 +162,7 @@ fn a_lost_wave_leaves_nothing() {
     let mut codes = WAVE.codes(20_000);
     codes.extend(silence(0.005).codes(20_000));
     fs::write(here.join("a.wav"), wav(&codes)).unwrap();
-    let run = run(here, "identify a.wav --residual left.csv");
+    let run = run(here, "identify a.wav --output csv --residual left.csv");
     assert!(
         run.err.contains("left.csv: 40000 sample pairs, rms "),
         "{}",
@@ -170,7 +170,17 @@ fn a_lost_wave_leaves_nothing() {
     );
     let lines = lines(&here.join("left.csv"));
     assert!(lines[100..19_000].iter().all(|line| line[1..] != [0.0; 2]));
-    assert!(lines[25_000..].iter().all(|line| line[1..] == [0.0; 2]));
+    let is_zero = |line: &[f64; 3]| line[1..] == [0.0; 2];
+    assert!(lines[25_000..].iter().all(is_zero));
+    let rows = Row::all(&run.out);
+    let lost = rows.iter().filter(|row| row.text("flags").contains("lost"));
+    let samples = |row: &Row| {
+        let (middle, samples) = (RATE * row.number("time_s"), row.number("samples"));
+        let first = (middle - 0.5 * (samples - 1.0)).round() as usize;
+        first..first + samples as usize
+    };
+    assert!(lost.clone().count() > 0);
+    assert!(lost.flat_map(samples).all(|place| is_zero(&lines[place])));
     // Without any row there is no file.
     let run = run_with(
         here,

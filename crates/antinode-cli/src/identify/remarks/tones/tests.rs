@@ -10,6 +10,16 @@ const RATE: f64 = 1e5;
 
 /// The cause told for a wave of 5332 Hz beside tones of these frequencies, Hz, and amplitudes; of its rows one in `every` is a misfit.
 fn cause(tones: &[(f64, f64)], every: u64, settings: &Settings) -> Option<String> {
+    cause_of_turning(0.0, tones, every, settings)
+}
+
+/// The same for a pattern that turns at this rate, rad/s.
+fn cause_of_turning(
+    angle_rate: f32,
+    tones: &[(f64, f64)],
+    every: u64,
+    settings: &Settings,
+) -> Option<String> {
     let mut seen = Tones::new();
     let mut deviates = Deviates(3);
     for index in 0..300u64 {
@@ -21,6 +31,7 @@ fn cause(tones: &[(f64, f64)], every: u64, settings: &Settings) -> Option<String
         });
         seen.see(&pairs.collect::<Vec<_>>());
         let mut row = row(index, 1.0, &mut deviates);
+        row.angle_rate = angle_rate;
         if index % every == 0 {
             row.flags = Flags::MISFIT;
         }
@@ -57,6 +68,15 @@ fn only_many_misfits_are_explained_and_not_by_harmonics_alone() {
         told.contains("47988.0 Hz (9f, ") && told.contains("4024.0 Hz (amplitude"),
         "{told}"
     );
+}
+
+#[test]
+fn the_lines_of_a_turning_pattern_are_its_own() {
+    let settings = Settings::new(RATE);
+    // 300 rad/s turn the amplitude that a pick-off sees twice as fast.
+    let lines = [-1.0, 1.0].map(|sign| (5332.0 + sign * 300.0 * FRAC_1_PI, 0.3));
+    assert_eq!(cause_of_turning(-300.0, &lines, 2, &settings), None);
+    assert!(cause(&lines, 2, &settings).is_some());
 }
 
 #[test]
@@ -117,5 +137,19 @@ fn the_remedy_is_what_is_not_given_yet() {
         assert!(told.contains(remedy), "{tones:?}: {told}");
         let is_end = !remedy.ends_with(' ');
         assert_eq!(told.ends_with(remedy), is_end, "{tones:?}: {told}");
+    }
+}
+
+#[test]
+fn no_spectrum_spans_a_gap() {
+    let half = [[0.25, 0.5]; LENGTH / 2];
+    for (is_gap, count) in [(false, 1), (true, 0)] {
+        let mut seen = Tones::new();
+        seen.see(&half);
+        if is_gap {
+            seen.interrupt();
+        }
+        seen.see(&half);
+        assert_eq!(seen.spectrum.count(), count);
     }
 }

@@ -150,10 +150,6 @@ impl Open {
         for mut left in Fitted::new(row, self.rate, self.calibration).leaves(from, &pairs) {
             for (k, left) in left.iter_mut().enumerate() {
                 *left -= f64::from(offsets[k]);
-                // A sample that is not finite leaves no number.
-                if !left.is_finite() {
-                    *left = 0.0;
-                }
                 self.squares[k] += *left * *left;
             }
             if self.fault.is_none() {

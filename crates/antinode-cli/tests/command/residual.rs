@@ -198,6 +198,41 @@ fn a_lost_wave_leaves_nothing() {
 }
 
 #[test]
+fn a_window_with_a_sample_that_is_not_finite_leaves_zeros() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let mut samples: Vec<f32> = WAVE
+        .codes(20_000)
+        .concat()
+        .into_iter()
+        .map(f32::from)
+        .collect();
+    samples[2 * 9000 + 1] = f32::NAN;
+    samples[2 * 15_000] = f32::INFINITY;
+    let bytes: Vec<u8> = samples
+        .iter()
+        .flat_map(|sample| sample.to_le_bytes())
+        .collect();
+    for options in ["", "--hop 2", "--frequency 5300", "--hum"] {
+        let arguments = format!("identify - --raw f32 --rate 1e5 --residual left.csv {options}");
+        let run = run_with(here, &arguments, bytes.clone());
+        assert!(
+            run.err.contains("left.csv: 20000 sample pairs, rms "),
+            "{}",
+            run.err
+        );
+        let lines = lines(&here.join("left.csv"));
+        let is_zero = |place: &usize| lines[*place][1..] == [0.0; 2];
+        assert!([9000, 15_000].iter().all(is_zero), "{options}");
+        assert!(
+            ![8500, 9500, 14_500, 15_500].iter().any(is_zero),
+            "{options}"
+        );
+        fs::remove_file(here.join("left.csv")).unwrap();
+    }
+}
+
+#[test]
 fn every_format_is_read_again() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();

@@ -47,10 +47,8 @@ impl<'a> Fitted<'a> {
         let (mut sum, mut squares) = (0.0, 0.0);
         for (left, by_omega) in self.without_wave(from, pairs) {
             for ((left, offset), by_omega) in left.into_iter().zip(offsets).zip(by_omega) {
-                if left.is_finite() {
-                    sum += (left - offset) * by_omega;
-                    squares += by_omega * by_omega;
-                }
+                sum += (left - offset) * by_omega;
+                squares += by_omega * by_omega;
             }
         }
         if squares > 0.0 {

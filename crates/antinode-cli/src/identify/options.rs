@@ -1,6 +1,6 @@
 //! The command line of `antinode identify`.
 
-use std::path::{Path, PathBuf};
+use std::path::{self, Path, PathBuf};
 
 use antinode::{Detection, Settings};
 use clap::{Args, ValueEnum, value_parser};
@@ -166,14 +166,20 @@ impl Identify {
         Ok(())
     }
 
-    /// Rejects `--residual` for several recordings, which would each need a file.
+    /// Rejects `--residual` for several recordings, which would each need a file, and for the file of the rows.
     pub fn check_residual(&self) -> Result<(), Failure> {
-        if self.residual.is_some() && self.files.len() > 1 {
-            return Err(Failure::Usage(
-                "--residual is for one recording; identify each by itself".to_owned(),
-            ));
-        }
-        Ok(())
+        let Some(residual) = &self.residual else {
+            return Ok(());
+        };
+        let full = |path: &Path| path::absolute(path).ok();
+        let told = if self.files.len() > 1 {
+            "--residual is for one recording; identify each by itself"
+        } else if self.file().is_some_and(|rows| full(rows) == full(residual)) {
+            "--residual and --out are the same file; give one of them another name"
+        } else {
+            return Ok(());
+        };
+        Err(Failure::Usage(told.to_owned()))
     }
 
     /// The format of the rows: `--output`, or else what the ending of `--out` names, or else a table.

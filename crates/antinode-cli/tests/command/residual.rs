@@ -269,6 +269,11 @@ fn what_cannot_be_written_is_refused() {
             "--residual is for one recording; identify each by itself",
         ),
         (
+            "a.wav -o left.csv --residual ./left.csv",
+            2,
+            "--residual and --out are the same file; give one of them another name",
+        ),
+        (
             "a.wav --residual left.flac",
             2,
             "left.flac: the extension is not that of a known format",

@@ -117,9 +117,9 @@ pub struct Identify {
     pub out: Option<PathBuf>,
     /// Write what the waves leave of the samples to this .wav, .npy or .csv file.
     ///
-    /// That is each window's samples less its wave, and less the offsets of the first, in the unit of the rows. The file has a pair for each pair identified or
-    /// lost: 0 outside windows, and where the wave is lost. Of windows that overlap, the first that has a pair counts. It shows what makes
-    /// rows `misfit`, and whether `residual_rms` is noise. Only for one recording at a time.
+    /// That is each window's samples less its wave, and less the offsets of the first, in the unit of the rows. The file has a pair for each
+    /// pair identified or lost: 0 outside windows, and where the wave is lost. Of windows that overlap, the first that has a pair counts.
+    /// It shows what makes rows `misfit`, and whether `residual_rms` is noise. Only for one recording at a time.
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub residual: Option<PathBuf>,
     /// Which methods' results to show.

@@ -7,12 +7,11 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use antinode::{Calibration, Estimate, Flags};
 
-use super::MAX_PERIODS;
 use super::options::Identify;
-use super::{LONGEST_PERIOD, Recording};
+use super::{LONGEST_PERIOD, MAX_PERIODS};
 use crate::digits::{counted, significant};
 use crate::failure::Failure;
-use crate::recording::{RecordingWriter, SampleFormat};
+use crate::recording::{Recording, RecordingWriter, SampleFormat};
 use crate::tell::tell;
 use fitted::Fitted;
 
@@ -33,7 +32,7 @@ struct Open {
     /// Pairs written, which is also the number of the first pair that waits.
     written: u64,
     waiting: Vec<[f32; 2]>,
-    rows: u64,
+    has_rows: bool,
     /// The offsets of the first wave: those of each window would hide hum.
     offsets: Option<[f32; 2]>,
     /// Pairs within windows with a wave, and the sums of their squares.
@@ -62,7 +61,7 @@ impl Residual {
             calibration: options.corrected.calibration(),
             written: 0,
             waiting: Vec::new(),
-            rows: 0,
+            has_rows: false,
             offsets: None,
             explained: 0,
             squares: [0.0; 2],
@@ -133,7 +132,7 @@ impl Open {
     }
 
     fn row(&mut self, row: &Estimate) {
-        self.rows += 1;
+        self.has_rows = true;
         self.leave_out(row.start.saturating_sub(self.written));
         let count = row.end().saturating_sub(self.written);
         if row.flags.contains(Flags::LOST) {
@@ -160,7 +159,7 @@ impl Open {
 
     fn finish(mut self) -> Result<(), Failure> {
         let name = self.writer.name().to_owned();
-        if self.rows == 0 {
+        if !self.has_rows {
             tell(format_args!("{name}: not written, as there are no rows"));
             return Ok(());
         }

@@ -9,11 +9,6 @@ const MIN_OF_TENTH: u64 = 20;
 /// The same if they are more than half of all: a recording may have only a few long windows.
 const MIN_OF_HALF: u64 = 4;
 
-/// Whether so many of these rows have a flag that a remedy is named.
-pub fn are_many(flagged: u64, rows: u64) -> bool {
-    flagged >= MIN_OF_TENTH && 10 * flagged > rows || flagged >= MIN_OF_HALF && 2 * flagged > rows
-}
-
 /// Remedies for clipped rows.
 const CLIPPED_REMEDY: &str = "reduce the gain if an amplifier or the converter limits the wave, or give a larger --periods if a tone near \
                               three times the frequency is taken for its third harmonic";
@@ -21,6 +16,11 @@ const CLIPPED_REMEDY: &str = "reduce the gain if an amplifier or the converter l
 /// Remedies for circular rows, if these are most.
 const CIRCULAR_REMEDIES: &str = "if noise hides by how much the amplitudes differ, give a larger --periods; if S_C and S_D are I and Q of a \
                                  lock-in amplifier, which are one wave a quarter period apart, give the pick-offs' own samples";
+
+/// Whether so many of these rows have a flag that a remedy is named.
+pub fn are_many(flagged: u64, rows: u64) -> bool {
+    flagged >= MIN_OF_TENTH && 10 * flagged > rows || flagged >= MIN_OF_HALF && 2 * flagged > rows
+}
 
 /// Counts of rows by their flags.
 #[derive(Debug, Default)]

@@ -7,9 +7,9 @@ use std::fmt;
 
 use antinode::{Estimate, Flags, Settings};
 
-use super::super::MAX_PERIODS;
 use super::flag_counts::are_many;
 use crate::digits::significant;
+use crate::identify::MAX_PERIODS;
 use spectrum::{Line, Spectrum};
 
 /// Pairs in a spectrum, and fewest of a recording that is too short for that.
@@ -38,7 +38,8 @@ const MIN_PERIODS: f64 = 10.0;
 pub(super) struct Tones {
     /// The last pairs, up to two spectra of them.
     recent: Vec<[f32; 2]>,
-    spectrum: Spectrum,
+    /// `None` until there are pairs for it.
+    spectrum: Option<Spectrum>,
     rows: u64,
     /// Rows with a wave, the mean of their frequencies, Hz, and how fast the last pattern turned, rad/s.
     waves: u64,
@@ -53,7 +54,7 @@ impl Tones {
     pub fn new() -> Self {
         Self {
             recent: Vec::new(),
-            spectrum: Spectrum::new(LENGTH),
+            spectrum: None,
             rows: 0,
             waves: 0,
             frequency: 0.0,
@@ -66,9 +67,9 @@ impl Tones {
     /// Takes the next pairs.
     pub fn see(&mut self, pairs: &[[f32; 2]]) {
         self.recent.extend(pairs);
-        if self.spectrum.count() < FIRST {
+        if self.spectra() < FIRST {
             while self.recent.len() >= LENGTH {
-                self.spectrum.add(&self.recent[..LENGTH]);
+                self.add(0);
                 self.recent.drain(..LENGTH);
             }
         } else if self.recent.len() >= 2 * LENGTH {
@@ -93,12 +94,23 @@ impl Tones {
         self.misfits += u64::from(row.flags == Flags::MISFIT);
         self.clipped += u64::from(row.flags == Flags::CLIPPED);
         if row.flags.contains(Flags::MISFIT)
-            && self.spectrum.count() < MOST
+            && self.spectra() < MOST
             && let Some(from) = self.recent.len().checked_sub(LENGTH)
         {
-            self.spectrum.add(&self.recent[from..]);
+            self.add(from);
             self.recent.clear();
         }
+    }
+
+    /// How many spectra there are.
+    fn spectra(&self) -> u32 {
+        self.spectrum.as_ref().map_or(0, Spectrum::count)
+    }
+
+    /// Adds the spectrum of the recent pairs from this one on.
+    fn add(&mut self, from: usize) {
+        let spectrum = self.spectrum.get_or_insert_with(|| Spectrum::new(LENGTH));
+        spectrum.add(&self.recent[from..from + LENGTH]);
     }
 
     /// A warning that names the tones that stand out, if many rows are misfits, which harmonics of the wave alone do not make, or clipped,
@@ -130,10 +142,13 @@ impl Tones {
     /// The tones that stand out of samples taken at this rate, Hz; the strongest first.
     fn tones(&mut self, rate: f64) -> Vec<Tone> {
         self.take_what_there_is();
-        let step = rate / self.spectrum.length() as f64;
+        let Some(spectrum) = &self.spectrum else {
+            return Vec::new();
+        };
+        let step = rate / spectrum.length() as f64;
         let own = OWN_LINES + self.angle_rate.abs() * FRAC_1_PI / step;
         let place = self.frequency / step;
-        let mut lines = self.spectrum.stand_out(place, own, MIN_SHARE);
+        let mut lines = spectrum.stand_out(place, own, MIN_SHARE);
         lines.truncate(MAX_NAMED);
         let tone = |line: Line| {
             let hertz = line.place * step;
@@ -165,9 +180,9 @@ impl Tones {
     fn take_what_there_is(&mut self) {
         let power = self.recent.len().checked_ilog2();
         let length = power.map_or(0, |power| 1 << power);
-        if self.spectrum.count() == 0 && length >= MIN_LENGTH {
-            self.spectrum = Spectrum::new(length);
-            self.spectrum.add(&self.recent[..length]);
+        if self.spectra() == 0 && length >= MIN_LENGTH {
+            let spectrum = self.spectrum.insert(Spectrum::new(length));
+            spectrum.add(&self.recent[..length]);
         }
     }
 

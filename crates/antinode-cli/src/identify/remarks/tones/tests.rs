@@ -150,6 +150,6 @@ fn no_spectrum_spans_a_gap() {
             seen.interrupt();
         }
         seen.see(&half);
-        assert_eq!(seen.spectrum.count(), count);
+        assert_eq!(seen.spectra(), count);
     }
 }

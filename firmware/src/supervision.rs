@@ -57,7 +57,7 @@ const BORRSTF: u32 = 1 << 25;
 ///
 /// Power-on also sets BORRSTF, and every reset sets PINRSTF, so that the more specific flags are checked first. By default the brown-out
 /// reset is off, and every loss of power sets PORRSTF. BORRSTF comes alone if a level is set in the option bytes, see
-/// `firmware/docs/wiring.md`.
+/// `firmware/docs/wiring.md`; where the supply falls less, the firmware leaves a note of it.
 pub const fn cause(csr: u32, noted: Option<Cause>) -> Cause {
     // Memory does not survive a loss of power: a note would be there by chance.
     if csr & PORRSTF != 0 {
@@ -84,6 +84,7 @@ pub const fn number(cause: Cause) -> u32 {
         Cause::Panic => 2,
         Cause::HardFault => 3,
         Cause::Clock => 4,
+        Cause::BrownOut => 5,
         _ => 0,
     }
 }
@@ -95,6 +96,7 @@ pub const fn numbered(number: u32) -> Option<Cause> {
         2 => Some(Cause::Panic),
         3 => Some(Cause::HardFault),
         4 => Some(Cause::Clock),
+        5 => Some(Cause::BrownOut),
         _ => None,
     }
 }
@@ -130,7 +132,17 @@ mod tests {
         assert_eq!(cause(LPWRRSTF | PINRSTF, None), Cause::Unknown);
         assert_eq!(cause(BORRSTF | PINRSTF, None), Cause::BrownOut);
         assert_eq!(cause(PINRSTF, None), Cause::ResetPin);
-        for noted in [Cause::Command, Cause::Panic, Cause::HardFault, Cause::Clock] {
+        assert_eq!(
+            cause(SFTRSTF | PINRSTF, Some(Cause::BrownOut)),
+            Cause::BrownOut
+        );
+        for noted in [
+            Cause::Command,
+            Cause::Panic,
+            Cause::HardFault,
+            Cause::Clock,
+            Cause::BrownOut,
+        ] {
             assert_eq!(numbered(number(noted)), Some(noted));
         }
         // Causes without a note have no number, and other numbers no cause.
@@ -143,6 +155,6 @@ mod tests {
         ] {
             assert_eq!(numbered(number(other)), None);
         }
-        assert_eq!([0, 5, 6, u32::MAX].map(numbered), [None; 4]);
+        assert_eq!([0, 6, 7, u32::MAX].map(numbered), [None; 4]);
     }
 }

@@ -41,15 +41,15 @@ mod app {
         places: Places<'static, Arithmetic> = Places::new(),
     ])]
     fn init(c: init::Context) -> (Shared, Local) {
-        let (cause, place) = reset::started(&c.device.RCC);
-        log::started(cause, place);
+        let note = reset::started(&c.device.RCC);
+        log::started(&note);
         clock::start_tick(c.core.SYST);
         let mut text = replay::line();
         let Some(mut script) = Script::read(&mut text) else {
             defmt::error!("the command line must be: RECORDING [OPTION=NUMBER[:NUMBER]]...");
             marks::fail()
         };
-        if cause == Cause::Panic {
+        if note.cause == Cause::Panic {
             script.panic = None;
         }
         let Some(source) = Replay::open(&text, script) else {
@@ -59,7 +59,7 @@ mod app {
         let Ok(parts) = c
             .local
             .queues
-            .split(c.local.places, source.configuration(), cause)
+            .split(c.local.places, source.configuration(), note.cause)
         else {
             defmt::error!("the sample rate is beyond the settings' range");
             marks::fail()

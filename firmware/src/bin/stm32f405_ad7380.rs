@@ -18,7 +18,7 @@ mod app {
     use firmware::hardware::sampler::Sampler;
     use firmware::hardware::spi_adc::SpiAdc;
     use firmware::hardware::watchdog::Watchdog;
-    use firmware::hardware::{clock, log, main_loop, reset};
+    use firmware::hardware::{clock, log, main_loop, reset, supply};
     use firmware::instrument::Instrument;
     use firmware::pipeline::{Places, Queues};
     use firmware::sampling::AD7380_RAILS;
@@ -48,20 +48,18 @@ mod app {
     ])]
     fn init(c: init::Context) -> (Shared, Local) {
         let device = c.device;
-        let watchdog = Watchdog::start(device.IWDG, &device.DBGMCU);
-        let (cause, place) = reset::started(&device.RCC);
-        log::started(cause, place);
-        log::supply(&device.FLASH);
+        let mut watchdog = Watchdog::start(device.IWDG, &device.DBGMCU);
+        let note = reset::started(&device.RCC);
+        log::started(&note);
+        let is_high = supply::start(&device.RCC, &device.PWR, &device.EXTI, &mut watchdog);
+        log::supply(&device.FLASH, is_high);
         let crystal = clock::start(&device.RCC, &device.FLASH);
         clock::start_tick(c.core.SYST);
 
         let mut rcc = device.RCC.constrain();
         let pins = device.GPIOA.split(&mut rcc);
-        let _ = (
-            pins.pa9.into_alternate::<7>(),
-            // Pulled up: without a serial bridge it would float, and noise be taken for bytes.
-            pins.pa10.into_alternate::<7>().internal_pull_up(true),
-        );
+        // Pulled up: without a serial bridge it would float, and noise be taken for bytes.
+        let _ = pins.pa10.into_alternate::<7>().internal_pull_up(true);
         // After a reset pins have their slowest edges, too slow for 10.5 MHz. Slow edges of SCK corrupt the last bit of each word at any
         // frequency (ES0182, "Corrupted last bit of data"), and the edge of CS is when both inputs are sampled.
         let data = (
@@ -76,11 +74,13 @@ mod app {
             .speed(Speed::VeryHigh);
 
         let settings = configuration(FrontEnd::Spi, AD7380_RAILS);
-        let Ok(parts) = c.local.queues.split(c.local.places, settings, cause) else {
+        let Ok(parts) = c.local.queues.split(c.local.places, settings, note.cause) else {
             // Never: invalid settings do not compile.
             reset::restart(Cause::Panic, line!())
         };
         let line = Line::new(device.USART1, &rcc, parts.out, parts.inbox, Transfer::Dma);
+        // Only now: the pin of a USART that is off may be low, which looks like a byte.
+        let _ = pins.pa9.into_alternate::<7>();
         let started = if crystal {
             SpiAdc::start(
                 device.SPI1,
@@ -130,6 +130,12 @@ mod app {
     #[task(binds = DMA2_STREAM7, priority = 2, shared = [line])]
     fn sent(c: sent::Context) {
         c.shared.line.serve(true);
+    }
+
+    /// The supply falls.
+    #[task(binds = PVD, priority = 4)]
+    fn brown_out(_: brown_out::Context) {
+        reset::restart(Cause::BrownOut, 0)
     }
 
     #[task(binds = SysTick, priority = 1)]

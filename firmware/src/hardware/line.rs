@@ -49,7 +49,7 @@ pub struct Line {
 }
 
 impl Line {
-    /// Starts the line; the pins must have their alternate function 7.
+    /// Starts the line. RX must have its alternate function 7 before, and TX be given it after.
     pub fn new(
         usart: USART1,
         rcc: &RCC,

@@ -3,21 +3,28 @@
 use antinode_telemetry::{Cause, State};
 use stm32f4xx_hal::pac::FLASH;
 
+use super::reset::Note;
 use crate::instrument::Event;
 
-/// Logs why the device started; `place` is the source line of a panic, the address of a fault, and unused otherwise.
-pub fn started(cause: Cause, place: u32) {
-    match cause {
-        Cause::Panic => defmt::info!("antinode started: panic, at line {=u32}", place),
-        Cause::HardFault => {
-            defmt::info!("antinode started: hard fault, at address {=u32:#x}", place);
-        }
-        _ => defmt::info!("antinode started: {=str}", cause.name()),
+/// Logs why the device started.
+pub fn started(note: &Note) {
+    match note.cause {
+        Cause::Panic => defmt::info!("antinode started: panic, at line {=u32}", note.place),
+        Cause::HardFault => defmt::info!(
+            "antinode started: hard fault, at address {=u32:#x}, called from {=u32:#x}, CFSR {=u32:#x}",
+            note.place,
+            note.caller,
+            note.status
+        ),
+        cause => defmt::info!("antinode started: {=str}", cause.name()),
     }
 }
 
-/// Warns if nothing resets the chip between 1.7 V and the 2.7 V that its clock needs.
-pub fn supply(flash: &FLASH) {
+/// Warns if the supply was low at the start, or if nothing resets the chip between 1.7 V and the 2.7 V that its clock needs.
+pub fn supply(flash: &FLASH, is_high: bool) {
+    if !is_high {
+        defmt::warn!("the supply is below 3 V: nothing tells if it falls below 2.7 V");
+    }
     // OPTCR.BOR_LEV: 0 means level 3.
     if flash.optcr().read().bor_lev().bits() != 0 {
         defmt::warn!("the brown-out level is not set: see firmware/docs/wiring.md");

@@ -26,6 +26,24 @@ pub fn run<S: Sample>(instrument: &mut Instrument<'_, S>, watchdog: &mut Watchdo
             cortex_m::asm::delay(20 * (CORE / BAUD + 1));
             reset::restart(Cause::Command, 0);
         }
-        cortex_m::asm::wfi();
+        sleep();
+    }
+}
+
+/// Sleeps until an interrupt.
+///
+/// While a probe has the clock go on in sleep (DBGMCU_CR.DBG_SLEEP, which only power-off resets), the chip may run wrong instructions
+/// after a `wfi` at certain addresses: ES0182, "Debugging Sleep/Stop mode with WFE/WFI entry". Three instructions after it that do nothing
+/// were seen not to help at addresses that end in 4 (apache/mynewt-core#2058), so that it has 16 bytes of its own.
+#[allow(unsafe_code, reason = "the instruction needs an address of its own")]
+fn sleep() {
+    // SAFETY: it changes no register; `.balign` pads code with instructions that do nothing.
+    unsafe {
+        core::arch::asm!(
+            ".balign 16",
+            "wfi",
+            ".balign 16",
+            options(nostack, preserves_flags)
+        );
     }
 }

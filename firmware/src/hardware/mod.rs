@@ -13,4 +13,5 @@ pub mod reset;
 pub mod ring;
 pub mod sampler;
 pub mod spi_adc;
+pub mod supply;
 pub mod watchdog;

@@ -4,10 +4,10 @@ use stm32f4xx_hal::pac::{RCC, TIM2};
 
 use crate::hardware::clock;
 
-/// Timer whose update is the sampling trigger, by its number as TIM2's internal trigger input (RM0090, 18.4.3).
+/// Timer that triggers the sampling, by its number as TIM2's internal trigger input (RM0090, 18.4.3).
 #[derive(Debug, Clone, Copy)]
 pub enum Trigger {
-    /// ITR0. An update counts once although TIM1 has twice TIM2's clock, as in ST's example TIM_Synchronization for the STM32F407.
+    /// ITR0.
     Tim1 = 0,
     /// ITR2.
     Tim3 = 2,

@@ -18,23 +18,46 @@ const MARK: u32 = 0x616e_7469;
 // SAFETY: `.uninit` is RAM that the linker script of cortex-m-rt reserves and that start-up code does not write; any bits are valid
 // atomics.
 #[unsafe(link_section = ".uninit.NOTE")]
-static NOTE: [AtomicU32; 3] = [const { AtomicU32::new(0) }; 3];
+static NOTE: [AtomicU32; 5] = [const { AtomicU32::new(0) }; 5];
+
+/// Why the device was reset.
+pub struct Note {
+    /// The cause.
+    pub cause: Cause,
+    /// Source line of a panic, address of a hard fault, or else 0.
+    pub place: u32,
+    /// Of a hard fault: the address to which the function that it was in would have returned, LR.
+    pub caller: u32,
+    /// Of a hard fault: CFSR, what the core objected to. If it was a write, the fault comes some instructions after it.
+    pub status: u32,
+}
 
 /// Leaves a note of the cause and the place, and resets the chip.
 pub fn restart(cause: Cause, place: u32) -> ! {
-    let number = number(cause);
-    for (word, value) in NOTE.iter().zip([number, place, MARK ^ number]) {
+    leave(&Note {
+        cause,
+        place,
+        caller: 0,
+        status: 0,
+    })
+}
+
+/// Leaves a note, and resets the chip.
+fn leave(note: &Note) -> ! {
+    let number = number(note.cause);
+    let words = [number, note.place, note.caller, note.status, MARK ^ number];
+    for (word, value) in NOTE.iter().zip(words) {
         word.store(value, Ordering::Relaxed);
     }
     SCB::sys_reset()
 }
 
-/// Cause of the reset, and its place: the source line of a panic, the address of a fault, or else 0. To be called once, as it clears the
-/// note and the chip's flags.
-pub fn started(rcc: &RCC) -> (Cause, u32) {
-    let [first, place, mark] = [0, 1, 2].map(|i: usize| {
-        NOTE.get(i)
-            .map_or(0, |word| word.swap(0, Ordering::Relaxed))
+/// Why the device was reset. To be called once, as it clears the note and the chip's flags.
+pub fn started(rcc: &RCC) -> Note {
+    let [first, place, caller, status, mark] = NOTE.each_ref().map(|word| {
+        let was = word.load(Ordering::Relaxed);
+        word.store(0, Ordering::Relaxed);
+        was
     });
     let noted = if mark == MARK ^ first {
         numbered(first)
@@ -44,8 +67,13 @@ pub fn started(rcc: &RCC) -> (Cause, u32) {
     let csr = rcc.csr().read().bits();
     // RMVF: flags accumulate over resets until they are removed.
     rcc.csr().modify(|_, w| w.rmvf().set_bit());
-    let place = if noted.is_some() { place } else { 0 };
-    (cause(csr, noted), place)
+    let known = |word| if noted.is_some() { word } else { 0 };
+    Note {
+        cause: cause(csr, noted),
+        place: known(place),
+        caller: known(caller),
+        status: known(status),
+    }
 }
 
 /// The panic handler: restarts the instrument, which then reports [`Cause::Panic`] and logs the line.
@@ -56,7 +84,15 @@ pub fn panicked(info: &PanicInfo) -> ! {
     )
 }
 
-/// The fault handler: restarts the instrument, which then reports [`Cause::HardFault`] and logs the address.
+/// The fault handler: restarts the instrument, which then reports [`Cause::HardFault`] and logs where and why.
 pub fn faulted(frame: &ExceptionFrame) -> ! {
-    restart(Cause::HardFault, frame.pc())
+    #[allow(unsafe_code, reason = "the fault handler does not own the core")]
+    // SAFETY: a read without effects.
+    let status = unsafe { (*SCB::PTR).cfsr.read() };
+    leave(&Note {
+        cause: Cause::HardFault,
+        place: frame.pc(),
+        caller: frame.lr(),
+        status,
+    })
 }

@@ -147,8 +147,10 @@ impl SpiAdc {
             timer.ccmr1_output().write(|w| w.oc1m().bits(0b111));
             timer.ccer().write(|w| w.cc1e().set_bit());
             timer.bdtr().write(|w| w.moe().set_bit());
-            // CR2.MMS 2: the update, where CS falls, is TIM1's TRGO.
-            timer.cr2().write(|w| w.mms().bits(0b010));
+            // CCMR1.OC2M 6: PWM mode 1, high until CCR2. CR2.MMS 5: that is TIM1's TRGO, which rises where CS falls. The update would rise
+            // there too, but perhaps for a single cycle of TIM1, half of one of TIM2.
+            timer.ccmr1_output().modify(|_, w| w.oc2m().bits(0b110));
+            timer.cr2().write(|w| w.mms().bits(0b101));
         }
     }
 

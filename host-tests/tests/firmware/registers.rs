@@ -17,6 +17,8 @@ const LOW: u32 = 0x20;
 const HIGH: u32 = 0x24;
 /// Offset in DMA2 of stream 5's registers, at which CR, NDTR, PAR and M0AR follow.
 const STREAM_5: u32 = 0x10 + 5 * 0x18;
+/// The write that gives PA9 its alternate function.
+const TX: (u32, u32) = (MODE, 2 << 18);
 
 /// Offset and value of each write to a device, in order.
 fn writes(log: &str, device: &str) -> Vec<(u32, u32)> {
@@ -31,8 +33,8 @@ fn writes(log: &str, device: &str) -> Vec<(u32, u32)> {
         .collect()
 }
 
-/// Writes of an image to port A and to DMA2, until it has enabled the line's reception.
-fn start(image: &str) -> [Vec<(u32, u32)>; 2] {
+/// Log of an image's start, until it has given the line its second pin.
+fn start(image: &str) -> String {
     static NEXT: AtomicU32 = AtomicU32::new(0);
     let number = NEXT.fetch_add(1, Ordering::Relaxed);
     let log = folder().join(format!("{number}.registers"));
@@ -50,9 +52,8 @@ fn start(image: &str) -> [Vec<(u32, u32)>; 2] {
         );
         thread::sleep(Duration::from_millis(100));
         let log = fs::read_to_string(&log).unwrap_or_default();
-        let dma = writes(&log, "DMA2:");
-        if dma.contains(&(STREAM_5, 1)) {
-            return [writes(&log, "GPIOA:"), dma];
+        if writes(&log, "GPIOA:").contains(&TX) {
+            return log;
         }
     }
 }
@@ -61,11 +62,12 @@ fn start(image: &str) -> [Vec<(u32, u32)>; 2] {
 #[ignore = "needs the ARM target"]
 fn pins_are_set_as_wiring_md_says() {
     for image in ["stm32f405", "stm32f405_ad7380"] {
-        let [port, dma] = start(image);
+        let log = start(image);
+        let (port, dma) = (writes(&log, "GPIOA:"), writes(&log, "DMA2:"));
         // PA9 and PA10 to alternate function 7, PA10 pulled up.
         let line = [
             (HIGH, 0x70),
-            (MODE, 2 << 18),
+            TX,
             (HIGH, 0x700),
             (MODE, 2 << 20),
             (PULL, 1 << 20),
@@ -103,9 +105,40 @@ fn pins_are_set_as_wiring_md_says() {
 #[test]
 #[ignore = "needs the ARM target"]
 fn chip_select_is_never_low_before_the_first_frame() {
-    let [port, _] = start("stm32f405_ad7380");
+    let port = writes(&start("stm32f405_ad7380"), "GPIOA:");
     let out = port.iter().position(|&write| write == (MODE, 1 << 16));
     let high = port.iter().position(|&write| write == (SET, 1 << 8));
     assert!(high.is_some() && high < out, "{port:x?}");
     assert!(!port.contains(&(SET, 1 << 24)), "{port:x?}");
+}
+
+#[test]
+#[ignore = "needs the ARM target"]
+fn the_pin_of_the_line_is_connected_once_its_usart_is_on() {
+    for image in ["stm32f405", "stm32f405_ad7380"] {
+        let log = start(image);
+        let lines: Vec<&str> = log.lines().collect();
+        let place = |device: &str, write: (u32, u32)| {
+            let is = |line: &&str| writes(line, device) == [write];
+            lines.iter().position(is)
+        };
+        let (receives, connected) = (place("DMA2:", (STREAM_5, 1)), place("GPIOA:", TX));
+        assert!(receives.is_some() && receives < connected, "{image}");
+    }
+}
+
+#[test]
+#[ignore = "needs the ARM target"]
+fn the_supply_is_watched_before_the_clock_is_raised() {
+    for image in ["stm32f405", "stm32f405_ad7380"] {
+        let log = start(image);
+        // CR.PLS 6, PVDE.
+        assert_eq!(writes(&log, "PWR:"), [(0x00, 6 << 5 | 1 << 4)], "{image}");
+        let lines: Vec<&str> = log.lines().collect();
+        let place = |of: &dyn Fn(&str) -> bool| lines.iter().position(|line| of(line));
+        let watched = place(&|line| line.starts_with("PWR:") && line.contains("read"));
+        // ACR: wait states.
+        let raised = place(&|line| line.starts_with("Flash") && line.contains("write"));
+        assert!(watched.is_some() && watched < raised, "{image}");
+    }
 }

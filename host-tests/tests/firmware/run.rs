@@ -110,3 +110,38 @@ fn files_that_are_no_recording_are_refused_with_the_remedy() {
         assert!(fs::read(&out).expect("it is there").is_empty(), "{name}");
     }
 }
+
+#[cfg(unix)]
+#[test]
+fn a_board_may_have_another_chip() {
+    use std::os::unix::fs::PermissionsExt;
+
+    let tools = folder().join("tools");
+    fs::create_dir_all(&tools).expect("it can be made");
+    // In place of the probe's program, it tells what it was asked for.
+    let probe = tools.join("probe-rs");
+    fs::write(&probe, "#!/bin/sh\necho \"$@\"\n").expect("it can be written");
+    fs::set_permissions(&probe, fs::Permissions::from_mode(0o755)).expect("it is ours");
+    let path = format!(
+        "{}:{}",
+        tools.display(),
+        std::env::var("PATH").unwrap_or_default()
+    );
+    for (chip, asked) in [
+        (None, "run --chip STM32F405RGTx stm32f405\n"),
+        (
+            Some("STM32F407VGTx"),
+            "run --chip STM32F407VGTx stm32f405\n",
+        ),
+    ] {
+        let output = Command::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../firmware/run"))
+            .arg("stm32f405")
+            .env("PATH", &path)
+            .env_remove("SERIAL")
+            .env_remove("CHIP")
+            .envs(chip.map(|chip| ("CHIP", chip)))
+            .output()
+            .expect("bash is installed");
+        assert_eq!(String::from_utf8_lossy(&output.stdout), asked);
+    }
+}

@@ -84,7 +84,8 @@
 // No significant wave: no number of the estimate means anything, and some may be NaN or infinite.
 #define ANTINODE_FLAG_LOST 2u
 
-// The phase does not continue that of the last window without a misfit: samples are missing between the two windows or within one.
+// The phase does not continue that of the last window without LOST, MISFIT, DEAD_CHANNEL and NOT_FINITE: samples are missing since that
+// one or within this.
 #define ANTINODE_FLAG_PHASE_JUMP 4u
 
 // Amplitude, angle or offset stepped between the previous window and this one.
@@ -101,7 +102,7 @@
 // or 55. After a new search a dead pick-off looks like a pattern on the other pick-off's axis, and is not flagged.
 #define ANTINODE_FLAG_DEAD_CHANNEL 64u
 
-// The angle is known modulo pi/2 only: set on the first window after the wave was lost, or after a gap, misfits or circular windows in
+// The angle is known modulo pi/2 only: set on the first window after a lost wave was searched for, or after a gap, misfits or circular windows in
 // which the pattern may have turned unseen, and on the first window after a new calibration, unless it is the first of all. The flag
 // stays set up to and including the first window without MISFIT, NOT_FINITE and DEAD_CHANNEL, whose angle later windows continue.
 #define ANTINODE_FLAG_REACQUIRED 128u

@@ -8,7 +8,8 @@ use antinode::Flags;
 pub const ANTINODE_FLAG_CLIPPED: u32 = 0x001_u32;
 /// No significant wave: no number of the estimate means anything, and some may be NaN or infinite.
 pub const ANTINODE_FLAG_LOST: u32 = 0x002_u32;
-/// The phase does not continue that of the last window without a misfit: samples are missing between the two windows or within one.
+/// The phase does not continue that of the last window without LOST, MISFIT, DEAD_CHANNEL and NOT_FINITE: samples are missing since that
+/// one or within this.
 pub const ANTINODE_FLAG_PHASE_JUMP: u32 = 0x004_u32;
 /// Amplitude, angle or offset stepped between the previous window and this one.
 pub const ANTINODE_FLAG_STEP: u32 = 0x008_u32;
@@ -20,7 +21,7 @@ pub const ANTINODE_FLAG_MISFIT: u32 = 0x020_u32;
 /// exceeded 0.4 % of the main amplitude by 20 standard deviations of an amplitude between windows, or by 30 within one, and all if by 30
 /// or 55. After a new search a dead pick-off looks like a pattern on the other pick-off's axis, and is not flagged.
 pub const ANTINODE_FLAG_DEAD_CHANNEL: u32 = 0x040_u32;
-/// The angle is known modulo π/2 only: set on the first window after the wave was lost, or after a gap, misfits or circular windows in
+/// The angle is known modulo π/2 only: set on the first window after a lost wave was searched for, or after a gap, misfits or circular windows in
 /// which the pattern may have turned unseen, and on the first window after a new calibration, unless it is the first of all. The flag
 /// stays set up to and including the first window without MISFIT, NOT_FINITE and DEAD_CHANNEL, whose angle later windows continue.
 pub const ANTINODE_FLAG_REACQUIRED: u32 = 0x080_u32;

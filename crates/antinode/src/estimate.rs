@@ -13,9 +13,10 @@ impl Flags {
     pub const CLIPPED: Self = Self(1);
     /// No significant wave: the other numbers mean nothing.
     pub const LOST: Self = Self(1 << 1);
-    /// The phase does not continue from the last window without [`MISFIT`](Self::MISFIT): samples are missing between the two windows or
-    /// within one. Half of the jumps that exceed 0.02 rad by 20 of the deviations stated are flagged, and all that exceed it by 30; within a
-    /// window, where [`MISFIT`](Self::MISFIT) may stand instead, these limits are 50 and 70.
+    /// The phase does not continue from the last window without [`LOST`](Self::LOST), [`MISFIT`](Self::MISFIT),
+    /// [`DEAD_CHANNEL`](Self::DEAD_CHANNEL) and [`NOT_FINITE`](Self::NOT_FINITE): samples are missing since that one or within this. Half
+    /// of the jumps that exceed 0.02 rad by 20 of the deviations stated are flagged, and all that exceed it by 30; within a window, where
+    /// [`MISFIT`](Self::MISFIT) may stand instead, these limits are 50 and 70.
     pub const PHASE_JUMP: Self = Self(1 << 2);
     /// Amplitude, angle or offset stepped between the window before and this one. Half of the steps that exceed 0.2 % of a_A or 2 mrad by
     /// 20 of the deviations stated are flagged, and all that exceed it by 30, or by 36 and 54 if a hop leaves a gap as long as a window,
@@ -32,7 +33,7 @@ impl Flags {
     /// flagged if the wave lost exceeds 0.4 % of a_A by 20 deviations of an amplitude between windows, or by 30 within one, and all if it
     /// does by 30 or 55. After a new search a dead pick-off looks like a pattern on the other's axis, and is not flagged.
     pub const DEAD_CHANNEL: Self = Self(1 << 6);
-    /// First window after the wave was lost, or after a gap, misfits or circular windows in which the pattern may have turned by a quarter
+    /// First window after a lost wave was searched for, or after a gap, misfits or circular windows in which the pattern may have turned by a quarter
     /// turn more or less: the angle is known modulo π/2 only. Also the first window after a change of calibration or settings, unless it is
     /// the first of all, or the change was by `configure`, which begins at the start angle. The flag stands up to and in the first window
     /// without a misfit, whose angle later windows continue.

@@ -60,7 +60,7 @@ fn a_wave_that_ends_with_a_window_is_lost_and_nothing_else() {
 }
 
 #[test]
-fn missing_samples_next_to_a_nan_are_reported_once() {
+fn missing_samples_next_to_a_nan_are_reported_by_the_next_window() {
     for seed in 0..20 {
         let wave = random_wave(seed, 5332.0, 0.5);
         let mut pairs = stream(wave, noisy(&wave, 0.002), 8_000, seed);
@@ -72,17 +72,101 @@ fn missing_samples_next_to_a_nan_are_reported_once() {
         let found = identify_parts(&[&pairs], windows(10));
         assert!(found.len() >= 40, "{}", found.len());
         for (index, estimate) in found.iter().enumerate() {
-            let expected = if index == 20 {
-                Flags::NOT_FINITE.with(Flags::LOST)
-            } else {
-                Flags::empty()
+            let expected = match index {
+                20 => Flags::NOT_FINITE.with(Flags::LOST),
+                21 => Flags::PHASE_JUMP,
+                _ => Flags::empty(),
             };
             assert!(
-                estimate.flags.contains(expected) && (index == 20 || estimate.flags.is_empty()),
+                estimate.flags.contains(expected) && (index == 20 || estimate.flags == expected),
                 "seed {seed}, window {index}: {}",
                 estimate.flags
             );
         }
+    }
+}
+
+#[test]
+fn half_a_period_missing_anywhere_is_a_jump_of_the_phase() {
+    // The halves of a window with such a gap in its middle cancel, so that it shows no wave, a circle, or a dead pick-off.
+    let mut lost = 0;
+    for (periods, spread) in [(10, 188), (50, 938)] {
+        for seed in 0..80 {
+            let wave = Wave {
+                angle_rate: 0.2,
+                ..random_wave(seed, 5332.0, 0.2)
+            };
+            let mut pairs = stream(wave, noisy(&wave, 0.002), 15_000, seed);
+            let at = 8_000 + (seed as usize * 61) % spread;
+            // Some 0.43, 0.48, 0.53 and 0.59 of a period.
+            pairs.drain(at..at + 8 + seed as usize % 4);
+            let found = identify_parts(&[&pairs], windows(periods));
+            let end = |e: &Estimate| (e.start + u64::from(e.samples)) as usize;
+            let first = found.iter().position(|e| end(e) > at).expect("one has it");
+            lost += usize::from(found[first].flags.contains(Flags::LOST));
+            let told = |e: &Estimate| e.flags.contains(Flags::PHASE_JUMP);
+            assert!(
+                found[first..first + 2].iter().any(told),
+                "{periods} periods, seed {seed}, {} and {}",
+                found[first].flags,
+                found[first + 1].flags
+            );
+            for estimate in &found[first + 2..] {
+                assert!(estimate.flags.is_empty(), "seed {seed}: {estimate:?}");
+            }
+        }
+    }
+    assert!(lost > 40, "{lost} windows showed no wave");
+}
+
+#[test]
+fn a_dropout_of_a_window_is_no_jump_of_the_phase() {
+    let mut lost = 0;
+    for seed in 0..40 {
+        let wave = Wave {
+            angle_rate: 0.2,
+            ..random_wave(seed, 5332.0, 0.2)
+        };
+        let mut pairs = stream(wave, noisy(&wave, 0.002), 12_000, seed);
+        let at = 6_000 + 17 * seed as usize;
+        pairs[at..at + 250].fill([0.0; 2]);
+        let found = identify_parts(&[&pairs], windows(10));
+        lost += usize::from(found.iter().any(|e| e.flags.contains(Flags::LOST)));
+        for estimate in found {
+            let told = estimate.flags;
+            assert!(!told.contains(Flags::PHASE_JUMP), "seed {seed}: {told}");
+            // After two windows without the wave it is searched for.
+            let rest = told.without(Flags::REACQUIRED);
+            assert!(estimate.start as usize <= at + 250 || rest.is_empty());
+        }
+    }
+    assert!(lost > 20, "{lost} waves");
+}
+
+#[test]
+fn a_pick_off_that_is_dead_for_a_while_is_no_jump_of_the_phase() {
+    for seed in 0..40 {
+        let mut wave = random_wave(seed, 5332.0, 0.2);
+        // Without the other pick-off the quadrature wave moves the phase by up to 0.2 rad.
+        wave.quadrature_amplitude = 0.2 * wave.main_amplitude;
+        wave.angle = 0.3 + 0.01 * seed as f64;
+        let dead = 5_000 + 17 * seed as usize..8_000;
+        let mut pairs = stream(wave, noisy(&wave, 0.002), 12_000, seed);
+        for pair in &mut pairs[dead.clone()] {
+            pair[1] = 0.0;
+        }
+        let found = identify_parts(&[&pairs], windows(10));
+        let mut silent = 0;
+        for estimate in found {
+            let told = estimate.flags;
+            let begin = estimate.start as usize;
+            silent += usize::from(told.contains(Flags::DEAD_CHANNEL));
+            if begin >= dead.start {
+                assert!(!told.contains(Flags::PHASE_JUMP), "seed {seed}: {told}");
+            }
+            assert!(begin < 8_000 || told.is_empty(), "seed {seed}: {told}");
+        }
+        assert!(silent > 9, "{silent}");
     }
 }
 

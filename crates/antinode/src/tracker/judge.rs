@@ -114,6 +114,10 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             self.has_fallen_silent(&wave.record, fault),
             Flags::DEAD_CHANNEL,
         );
+        if flags.contains(Flags::DEAD_CHANNEL) {
+            // What the other pick-off sees of the quadrature wave moves its phase.
+            flags = flags.without(Flags::PHASE_JUMP);
+        }
         let is_circular = flags.contains(Flags::CIRCULAR);
         // If the angle is known modulo π/2 only, the angles before tell nothing of its rate.
         if is_circular || !is_certain {
@@ -196,10 +200,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             // The next window is judged by itself: a change between it and the last clean one is already flagged.
             self.trend.clear();
             if let Some(before) = &mut self.before {
-                // The phase is still compared if the wave went on: it tells missing samples from a spike.
-                if flags.intersects(BROKEN.without(Flags::MISFIT)) {
-                    before.phase_variance = f32::INFINITY;
-                }
+                // The phase is still compared: it tells missing samples from a spike or a dropout.
                 for amplitude in [&mut before.main, &mut before.quadrature] {
                     amplitude.rate_variance = f32::INFINITY;
                 }

@@ -21,9 +21,8 @@ import os
 
 import numpy
 
-#: The version of the header that this file was written for, the words of an antinode_float_t, and ANTINODE_ESTIMATE.
+#: The version of the header that this file was written for, and ANTINODE_ESTIMATE.
 VERSION = 256
-STATE_WORDS = 1352
 WINDOW_ENDED = 2
 
 #: antinode_estimate_t: one window.
@@ -82,7 +81,9 @@ _library.antinode_float_health.argtypes = [ctypes.c_void_p, ctypes.POINTER(_Heal
 _library.antinode_float_skip.argtypes = [ctypes.c_void_p, ctypes.c_uint32]
 _identify = _library.antinode_float_identify
 _identify.argtypes = [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, ctypes.POINTER(ctypes.c_size_t), ctypes.c_void_p]
-if _library.antinode_version() != VERSION:
+_library.antinode_float_size.restype = ctypes.c_size_t
+# The last eight bits are the patch, which changes no type and no function.
+if _library.antinode_version() >> 8 != VERSION >> 8:
     raise ImportError(f"antinode {VERSION:#x} is wanted, and the library is {_library.antinode_version():#x}")
 
 
@@ -105,7 +106,7 @@ class Gyro:
             # ctypes wraps integers that are too large.
             if isinstance(getattr(wanted, name), int) and getattr(wanted, name) != value:
                 raise ValueError(f"{name} cannot be {value}")
-        self._state = numpy.zeros(STATE_WORDS, "u8")
+        self._state = numpy.zeros(_library.antinode_float_size() // 8, "u8")
         _check(_library.antinode_float_init(ctypes.c_void_p(self._state.ctypes.data), ctypes.byref(wanted)))
 
     def push(self, samples):

@@ -95,6 +95,10 @@ int main(int argc, char **argv)
         return 1;
     }
 
+    if (antinode_version() >> 8 != ANTINODE_VERSION >> 8 || antinode_float_size() != sizeof gyro) {
+        fprintf(stderr, "this is not the header of the library that is loaded\n");
+        return 1;
+    }
     /* Samples are scaled so that full scale is 1; the largest code lies one step below it. */
     settings = antinode_settings_default(sample_rate_hz);
     settings.resolution = 1.0f / 32768.0f;

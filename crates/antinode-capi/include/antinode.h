@@ -1,7 +1,7 @@
 // antinode: the standing wave of a hemispherical resonator gyro, window by window, from its two pick-offs sampled together.
 // Apache-2.0 or MIT. Made by cbindgen from crates/antinode-capi; do not edit.
 //
-//     static antinode_fixed_t gyro;                                     // 8832 bytes; antinode_float_t has 10816
+//     static antinode_fixed_t gyro;                                     // or antinode_float_t, antinode_float_init and so on
 //
 //     antinode_settings_t settings = antinode_settings_default(100e3);  // before the interrupt is enabled
 //     antinode_status_t status = antinode_fixed_init(&gyro, &settings); // below 0: antinode_status_string(status)
@@ -20,8 +20,8 @@
 // their offset is found. Unsigned codes of 16 bits, oversampled or aligned to the left, would wrap around at half scale, and with
 // `watch` 0 no flag shows it: invert the highest bits, word ^ 0x80008000, and subtract 32768 from the rails; offsets are then 32768 less.
 //
-// Memory: the caller provides each state, static or on a stack; there is no heap, no global and no callback. Zeroed memory is not an
-// initialised state. A state may be copied or moved while nobody uses it.
+// Memory: the caller provides each state, static or on a stack, aligned to 8 bytes as its type demands; there is no heap, no global
+// and no callback. Zeroed memory is not an initialised state. A state may be copied or moved while nobody uses it.
 //
 // Concurrency, without a lock:
 //  - Interrupt side: _push, _push_block*, _skip. One of them at a time: interrupts that call them must have the same priority. They
@@ -29,9 +29,10 @@
 //  - Thread side: _solve, _search, _set_calibration. One of them at a time. They take blocks from the queue.
 //  - One call of each side may be under way at the same time: the interrupt may break into the thread anywhere, or run on another core
 //    that shares coherent memory.
-//  - _health may be called from anywhere at any time except during _init and _reset; the functions without a state at any time.
+//  - _health may be called from anywhere at any time except from another core during _init and _reset; the functions without a state
+//    at any time.
 //  - _init, _reset and _identify use both sides: no other call on that state may be under way, except _health during _identify, and,
-//    during _init and _reset, those of an interrupt of the same core, whose samples are refused.
+//    during _init and _reset, those of an interrupt of the same core, which are refused.
 //  - States are independent of each other.
 //
 // Cost of the interrupt:
@@ -45,7 +46,7 @@
 //
 // Errors: a NULL or misaligned pointer, a state that is not initialised and a value out of range give a status below 0, and nothing is
 // done; but a state whose _init failed is no longer initialised. A pointer that is neither NULL nor misaligned must point to what its
-// type says; a state must be changed by these functions only. Any sample is valid, NaN included. No function panics, aborts or
+// type says; a state must be changed by these functions only. Any sample is valid, NaN included. No function then panics, aborts or
 // blocks.
 
 
@@ -68,8 +69,9 @@
 
 // Finished blocks that the queue holds, including the one being solved. A block is two periods long, or a fifth of a window if that is
 // less; with a hop, half of this. It has at most ANTINODE_LONGEST_PERIOD sample pairs, and may be a little shorter, so that whole blocks
-// fit a window. No more than 15 blocks should be finished between two calls of a `_solve` function, nor by one call of a `_push_block`
-// function: at 18.75 samples a period these are 540 pairs in windows of ten periods and more, but 90 in windows of two.
+// fit a window. At most ANTINODE_QUEUE_BLOCKS - 1 blocks should be finished between two calls of a `_solve` function, and by one call of
+// a `_push_block` function: at 18.75 samples a period, 15 blocks are 540 pairs in windows of ten periods and more, but 90 in windows of
+// two.
 #define ANTINODE_QUEUE_BLOCKS 16
 
 // 64-bit words of an `antinode_fixed_t`.
@@ -102,9 +104,9 @@
 // or 55. After a new search a dead pick-off looks like a pattern on the other pick-off's axis, and is not flagged.
 #define ANTINODE_FLAG_DEAD_CHANNEL 64u
 
-// The angle is known modulo pi/2 only: set on the first window after a lost wave was searched for, or after a gap, misfits or circular windows in
-// which the pattern may have turned unseen, and on the first window after a new calibration, unless it is the first of all. The flag
-// stays set up to and including the first window without MISFIT, NOT_FINITE and DEAD_CHANNEL, whose angle later windows continue.
+// The angle is known modulo pi/2 only: set on the first window after a lost wave was searched for, or after a gap, misfits or circular
+// windows in which the pattern may have turned unseen, and on the first window after a new calibration, unless it is the first of all. The
+// flag stays set up to and including the first window without MISFIT, NOT_FINITE and DEAD_CHANNEL, whose angle later windows continue.
 #define ANTINODE_FLAG_REACQUIRED 128u
 
 // A sample is NaN or infinite, or so large that its sums are not finite.
@@ -139,7 +141,8 @@ enum
     ANTINODE_ERROR_NULL = -1,
     // A pointer is not aligned as its type demands.
     ANTINODE_ERROR_ALIGNMENT = -2,
-    // The state was never initialised, its last `_init` failed, or it belongs to the other arithmetic.
+    // The state was never initialised, its last `_init` failed, or it belongs to the other arithmetic. In memory that a reset does not
+    // clear, a state from before it, perhaps half written, counts as initialised: enable the interrupt after `_init`.
     ANTINODE_ERROR_NOT_INITIALISED = -3,
     // An array would be larger than the address space.
     ANTINODE_ERROR_COUNT = -4,
@@ -167,7 +170,7 @@ enum
     ANTINODE_ERROR_PICK_OFF_ANGLE = -20,
     // `hum` is neither 0 nor 1, or windows with it have fewer than 5 periods, or 10 with a hop.
     ANTINODE_ERROR_HUM = -21,
-    // `frequency_hz` is neither 0 nor within `sample_rate_hz` / 200 to `sample_rate_hz` / 2.5.
+    // `frequency_hz` is neither 0 nor within `sample_rate_hz` / ANTINODE_LONGEST_PERIOD to `sample_rate_hz` / 2.5.
     ANTINODE_ERROR_FREQUENCY = -22,
     // `coloured` is neither 0 nor 1.
     ANTINODE_ERROR_COLOURED = -23,
@@ -181,12 +184,12 @@ typedef int32_t antinode_status_t;
 #endif // __cplusplus
 
 // State of an identification in fixed point, on `int16_t` codes. Opaque: only the functions `antinode_fixed_*` look inside.
-typedef struct {
+typedef struct antinode_fixed_t {
     uint64_t words[ANTINODE_FIXED_WORDS];
 } antinode_fixed_t;
 
 // How pick-off D differs from an ideal one that stands 45 degrees from C, has C's gain and is sampled with C.
-typedef struct {
+typedef struct antinode_calibration_t {
     // Gain of channel D over that of channel C. 0.1 to 10; 1 is ideal.
     float gain_ratio;
     // How much later channel D is sampled than channel C, s. Within +-0.001; 0 is ideal. If it is more than a tenth of a window, the
@@ -197,7 +200,7 @@ typedef struct {
 } antinode_calibration_t;
 
 // Settings of an identification. Start from antinode_settings_default() and change what differs.
-typedef struct {
+typedef struct antinode_settings_t {
     // Sample rate, Hz. 1 to 1e10.
     double sample_rate_hz;
     // Length of a window, periods. 2 to ANTINODE_MOST_PERIODS; default 10. A window is a whole number of blocks, a block a whole number of
@@ -221,7 +224,8 @@ typedef struct {
     // without a fault be flagged ANTINODE_FLAG_CLIPPED or ANTINODE_FLAG_MISFIT: give it.
     float resolution;
     // The wave's frequency, Hz, if it is known, and stays so, within 5 %: it is then never searched for, and the first window begins with
-    // the first sample. `sample_rate_hz` / 200 to `sample_rate_hz` / 2.5; 0, the default: the period is found as `detection` says.
+    // the first sample. `sample_rate_hz` / ANTINODE_LONGEST_PERIOD to `sample_rate_hz` / 2.5; 0, the default: the period is found as
+    // `detection` says.
     float frequency_hz;
     // How the period is found: ANTINODE_DETECTION_DIFFERENCE, the default, or ANTINODE_DETECTION_MEAN_RETURN.
     uint32_t detection;
@@ -230,7 +234,7 @@ typedef struct {
     // hardly ever for a second tone or a wave at another frequency.
     uint32_t watch;
     // How the pick-offs differ from ideal ones. Default: ideal.
-    antinode_calibration_t calibration;
+    struct antinode_calibration_t calibration;
     // 1 if the signals carry hum or another slow wander: each block, of a period or more, then has an offset of its own, and what only
     // moves offsets is neither noise nor a fault. Windows must then have at least 5 periods, or 10 with a hop. 0, the default: they do
     // not.
@@ -243,7 +247,7 @@ typedef struct {
 } antinode_settings_t;
 
 // The wave over one window, at the window's middle. Each `_std` is one standard deviation.
-typedef struct {
+typedef struct antinode_estimate_t {
     // Index in the stream of the window's first sample pair.
     uint64_t start;
     // Time of the window's middle, s from the stream's first sample.
@@ -292,7 +296,7 @@ typedef struct {
 } antinode_estimate_t;
 
 // How an identification is doing, from counters that either side may read.
-typedef struct {
+typedef struct antinode_health_t {
     // 1 while a period is searched for, 0 while blocks are gathered; always 0 if `frequency_hz` is given.
     uint32_t searching;
     // 1 once a window that shows a wave has been solved, until one that shows none. If it stays 0 there is no wave, or none with a period
@@ -305,7 +309,7 @@ typedef struct {
 } antinode_health_t;
 
 // State of an identification in single precision. Opaque: only the functions `antinode_float_*` look inside.
-typedef struct {
+typedef struct antinode_float_t {
     uint64_t words[ANTINODE_FLOAT_WORDS];
 } antinode_float_t;
 
@@ -313,141 +317,150 @@ typedef struct {
 extern "C" {
 #endif // __cplusplus
 
+// The size of an `antinode_fixed_t` in the library that is linked, bytes. May be called from anywhere.
+size_t antinode_fixed_size(void);
+
+// The size of an `antinode_float_t` in the library that is linked, bytes. May be called from anywhere.
+size_t antinode_float_size(void);
+
 // Initialises a state from cold. Returns ANTINODE_OK, or what is wrong with the settings; the state is then not initialised. Call it
 // before any other function, while neither side runs. Only an interrupt of the same core may break in; ANTINODE_ERROR_NOT_INITIALISED
 // tells it that its pairs were not taken. To go on with other settings call it again, with the last angle as `start_angle_rad` and the
-// last frequency as `frequency_hz`, so that no search is needed; times begin at 0 again.
-antinode_status_t antinode_fixed_init(antinode_fixed_t *state,
-                                      const antinode_settings_t *settings);
+// last frequency as `frequency_hz`, so that no search is needed; no other wave is then found. Times begin at 0 again.
+antinode_status_t antinode_fixed_init(struct antinode_fixed_t *state,
+                                      const struct antinode_settings_t *settings);
 
 // Returns a state to what it was after its initialisation, except for the calibration, which is kept. It may be called when
 // antinode_fixed_init() may.
-antinode_status_t antinode_fixed_reset(antinode_fixed_t *state);
+antinode_status_t antinode_fixed_reset(struct antinode_fixed_t *state);
 
 // Interrupt side. Takes one sample pair, converter codes. Returns ANTINODE_OK; ANTINODE_READY if the pair finished a block;
 // ANTINODE_DROPPED if that block had to be dropped.
-antinode_status_t antinode_fixed_push(antinode_fixed_t *state, int16_t c, int16_t d);
+antinode_status_t antinode_fixed_push(struct antinode_fixed_t *state, int16_t c, int16_t d);
 
 // Interrupt side. Takes `count` sample pairs from two arrays, converter codes. Returns the same as antinode_fixed_push().
-antinode_status_t antinode_fixed_push_block(antinode_fixed_t *state, const int16_t *c, const int16_t *d, size_t count);
+antinode_status_t antinode_fixed_push_block(struct antinode_fixed_t *state, const int16_t *c, const int16_t *d, size_t count);
 
 // Interrupt side. Takes `count` sample pairs from one array of 2 x `count` samples, C and D in turn, converter codes. Returns the same as
 // antinode_fixed_push(). Pairs are read as words: if the core traps unaligned words (CCR.UNALIGN_TRP), `samples` must begin at a multiple
 // of four bytes.
-antinode_status_t antinode_fixed_push_block_interleaved(antinode_fixed_t *state,
+antinode_status_t antinode_fixed_push_block_interleaved(struct antinode_fixed_t *state,
                                                         const int16_t *samples,
                                                         size_t count);
 
 // Interrupt side. Takes `count` sample pairs of 16-bit codes, C in the low half of a word and D in the high half, as a dual
 // converter's DMA leaves them; pass unsigned codes of 16 bits as `word ^ 0x80008000`, see the head of the header. Returns the same as
 // antinode_fixed_push().
-antinode_status_t antinode_fixed_push_block_packed(antinode_fixed_t *state,
+antinode_status_t antinode_fixed_push_block_packed(struct antinode_fixed_t *state,
                                                    const uint32_t *words,
                                                    size_t count);
 
 // Interrupt side. Reports that `count` sample pairs were lost before the next one: the window that they would have been part of is
 // dropped, and time advances by them. After a gap so long that the turn of the pattern meanwhile is known to no better than 0.13 rad (one
 // standard deviation), the angle is known modulo pi/2 only, and ANTINODE_FLAG_REACQUIRED says so.
-antinode_status_t antinode_fixed_skip(antinode_fixed_t *state,
+antinode_status_t antinode_fixed_skip(struct antinode_fixed_t *state,
                                       uint32_t count);
 
 // Thread side. Solves finished blocks up to the next estimate. Returns ANTINODE_ESTIMATE if one was written: there may then be more.
 // Returns ANTINODE_OK if no block is left: `estimate` is then unchanged. A lost wave is searched for anew without a call.
-antinode_status_t antinode_fixed_solve(antinode_fixed_t *state,
-                                       antinode_estimate_t *estimate);
+antinode_status_t antinode_fixed_solve(struct antinode_fixed_t *state,
+                                       struct antinode_estimate_t *estimate);
 
 // Thread side. Drops the wave and searches anew; the angle continues from the last one, modulo pi/2.
-antinode_status_t antinode_fixed_search(antinode_fixed_t *state);
+antinode_status_t antinode_fixed_search(struct antinode_fixed_t *state);
 
 // Thread side. Changes the calibration from the next block on; the window begun is dropped, and the next one is flagged
 // ANTINODE_FLAG_REACQUIRED. A calibration out of range changes nothing.
-antinode_status_t antinode_fixed_set_calibration(antinode_fixed_t *state, const antinode_calibration_t *calibration);
+antinode_status_t antinode_fixed_set_calibration(struct antinode_fixed_t *state,
+                                                 const struct antinode_calibration_t *calibration);
 
 // Either side. Reads the state of the identification: whether it searches, has a wave, and loses blocks.
-antinode_status_t antinode_fixed_health(const antinode_fixed_t *state, antinode_health_t *health);
+antinode_status_t antinode_fixed_health(const struct antinode_fixed_t *state, struct antinode_health_t *health);
 
 // Both sides in one call, for use without an interrupt: takes sample pairs from `samples`, C and D in turn, up to the end of a window, and
 // writes how many it took to `taken`. Returns ANTINODE_ESTIMATE if a window ended and its estimate was written: call it again with the
 // rest. Returns ANTINODE_OK if all `count` pairs were taken without an estimate. `samples` must be aligned as for
 // antinode_fixed_push_block_interleaved().
-antinode_status_t antinode_fixed_identify(antinode_fixed_t *state,
+antinode_status_t antinode_fixed_identify(struct antinode_fixed_t *state,
                                           const int16_t *samples,
                                           size_t count,
                                           size_t *taken,
-                                          antinode_estimate_t *estimate);
+                                          struct antinode_estimate_t *estimate);
 
 // Initialises a state from cold. Returns ANTINODE_OK, or what is wrong with the settings; the state is then not initialised. Call it
 // before any other function, while neither side runs. Only an interrupt of the same core may break in; ANTINODE_ERROR_NOT_INITIALISED
 // tells it that its pairs were not taken. To go on with other settings call it again, with the last angle as `start_angle_rad` and the
-// last frequency as `frequency_hz`, so that no search is needed; times begin at 0 again.
-antinode_status_t antinode_float_init(antinode_float_t *state,
-                                      const antinode_settings_t *settings);
+// last frequency as `frequency_hz`, so that no search is needed; no other wave is then found. Times begin at 0 again.
+antinode_status_t antinode_float_init(struct antinode_float_t *state,
+                                      const struct antinode_settings_t *settings);
 
 // Returns a state to what it was after its initialisation, except for the calibration, which is kept. It may be called when
 // antinode_float_init() may.
-antinode_status_t antinode_float_reset(antinode_float_t *state);
+antinode_status_t antinode_float_reset(struct antinode_float_t *state);
 
 // Interrupt side. Takes one sample pair, in any unit. Returns ANTINODE_OK; ANTINODE_READY if the pair finished a block; ANTINODE_DROPPED
 // if that block had to be dropped.
-antinode_status_t antinode_float_push(antinode_float_t *state,
+antinode_status_t antinode_float_push(struct antinode_float_t *state,
                                       float c,
                                       float d);
 
 // Interrupt side. Takes `count` sample pairs from two arrays, in any unit. Returns the same as antinode_float_push().
-antinode_status_t antinode_float_push_block(antinode_float_t *state, const float *c, const float *d, size_t count);
+antinode_status_t antinode_float_push_block(struct antinode_float_t *state, const float *c, const float *d, size_t count);
 
 // Interrupt side. Takes `count` sample pairs from one array of 2 x `count` samples, C and D in turn, in any unit. Returns the same as
 // antinode_float_push().
-antinode_status_t antinode_float_push_block_interleaved(antinode_float_t *state,
+antinode_status_t antinode_float_push_block_interleaved(struct antinode_float_t *state,
                                                         const float *samples,
                                                         size_t count);
 
 // Interrupt side. Takes `count` sample pairs of 16-bit codes, C in the low half of a word and D in the high half, as a dual
 // converter's DMA leaves them; pass unsigned codes of 16 bits as `word ^ 0x80008000`, see the head of the header. Returns the same as
 // antinode_float_push().
-antinode_status_t antinode_float_push_block_packed(antinode_float_t *state,
+antinode_status_t antinode_float_push_block_packed(struct antinode_float_t *state,
                                                    const uint32_t *words,
                                                    size_t count);
 
 // Interrupt side. Reports that `count` sample pairs were lost before the next one: the window that they would have been part of is
 // dropped, and time advances by them. After a gap so long that the turn of the pattern meanwhile is known to no better than 0.13 rad (one
 // standard deviation), the angle is known modulo pi/2 only, and ANTINODE_FLAG_REACQUIRED says so.
-antinode_status_t antinode_float_skip(antinode_float_t *state,
+antinode_status_t antinode_float_skip(struct antinode_float_t *state,
                                       uint32_t count);
 
 // Thread side. Solves finished blocks up to the next estimate. Returns ANTINODE_ESTIMATE if one was written: there may then be more.
 // Returns ANTINODE_OK if no block is left: `estimate` is then unchanged. A lost wave is searched for anew without a call.
-antinode_status_t antinode_float_solve(antinode_float_t *state,
-                                       antinode_estimate_t *estimate);
+antinode_status_t antinode_float_solve(struct antinode_float_t *state,
+                                       struct antinode_estimate_t *estimate);
 
 // Thread side. Drops the wave and searches anew; the angle continues from the last one, modulo pi/2.
-antinode_status_t antinode_float_search(antinode_float_t *state);
+antinode_status_t antinode_float_search(struct antinode_float_t *state);
 
 // Thread side. Changes the calibration from the next block on; the window begun is dropped, and the next one is flagged
 // ANTINODE_FLAG_REACQUIRED. A calibration out of range changes nothing.
-antinode_status_t antinode_float_set_calibration(antinode_float_t *state, const antinode_calibration_t *calibration);
+antinode_status_t antinode_float_set_calibration(struct antinode_float_t *state,
+                                                 const struct antinode_calibration_t *calibration);
 
 // Either side. Reads the state of the identification: whether it searches, has a wave, and loses blocks.
-antinode_status_t antinode_float_health(const antinode_float_t *state, antinode_health_t *health);
+antinode_status_t antinode_float_health(const struct antinode_float_t *state, struct antinode_health_t *health);
 
 // Both sides in one call, for use without an interrupt: takes sample pairs from `samples`, C and D in turn, up to the end of a window, and
 // writes how many it took to `taken`. Returns ANTINODE_ESTIMATE if a window ended and its estimate was written: call it again with the
 // rest. Returns ANTINODE_OK if all `count` pairs were taken without an estimate.
-antinode_status_t antinode_float_identify(antinode_float_t *state,
+antinode_status_t antinode_float_identify(struct antinode_float_t *state,
                                           const float *samples,
                                           size_t count,
                                           size_t *taken,
-                                          antinode_estimate_t *estimate);
+                                          struct antinode_estimate_t *estimate);
 
 // Settings with every default: windows of 10 periods that follow each other, ideal pick-offs, no known rails, everything watched.
 // The sample rate is checked by the `_init` functions. May be called from anywhere.
-antinode_settings_t antinode_settings_default(double sample_rate_hz);
+struct antinode_settings_t antinode_settings_default(double sample_rate_hz);
 
 // What a status means, in English; never NULL. Takes any number. May be called from anywhere.
 const char *antinode_status_string(int32_t status);
 
-// The version of the library that is linked. It must equal ANTINODE_VERSION: otherwise header and library do not belong together, and
-// sizes may differ. May be called from anywhere.
+// The version of the library that is linked. ANTINODE_VERSION may differ from it in the last eight bits, the patch, which changes no
+// type and no function; otherwise header and library do not belong together. Compare the size of a state too, which depends on how the
+// library was built, before its `_init`. May be called from anywhere.
 uint32_t antinode_version(void);
 
 #ifdef __cplusplus

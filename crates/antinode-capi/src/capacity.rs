@@ -14,8 +14,9 @@ pub const ANTINODE_LONGEST_PERIOD: usize = 200;
 pub const ANTINODE_MOST_PERIODS: usize = 50;
 /// Finished blocks that the queue holds, including the one being solved. A block is two periods long, or a fifth of a window if that is
 /// less; with a hop, half of this. It has at most ANTINODE_LONGEST_PERIOD sample pairs, and may be a little shorter, so that whole blocks
-/// fit a window. No more than 15 blocks should be finished between two calls of a `_solve` function, nor by one call of a `_push_block`
-/// function: at 18.75 samples a period these are 540 pairs in windows of ten periods and more, but 90 in windows of two.
+/// fit a window. At most ANTINODE_QUEUE_BLOCKS - 1 blocks should be finished between two calls of a `_solve` function, and by one call of
+/// a `_push_block` function: at 18.75 samples a period, 15 blocks are 540 pairs in windows of ten periods and more, but 90 in windows of
+/// two.
 pub const ANTINODE_QUEUE_BLOCKS: usize = 16;
 
 /// Blocks of the ring that windows are cut from: two more than the periods of the longest window.
@@ -58,6 +59,20 @@ impl Float {
     };
 }
 
+/// The size of an `antinode_fixed_t` in the library that is linked, bytes. May be called from anywhere.
+#[allow(unsafe_code, reason = "`no_mangle` is an unsafe attribute")]
+#[unsafe(no_mangle)]
+pub extern "C" fn antinode_fixed_size() -> usize {
+    size_of::<Fixed>()
+}
+
+/// The size of an `antinode_float_t` in the library that is linked, bytes. May be called from anywhere.
+#[allow(unsafe_code, reason = "`no_mangle` is an unsafe attribute")]
+#[unsafe(no_mangle)]
+pub extern "C" fn antinode_float_size() -> usize {
+    size_of::<Float>()
+}
+
 /// True when `Opaque` can hold `Inside`.
 const fn holds<Opaque, Inside>() -> bool {
     size_of::<Inside>() <= size_of::<Opaque>() && align_of::<Inside>() <= align_of::<Opaque>()
@@ -75,7 +90,14 @@ mod tests {
 
     #[test]
     fn no_state_takes_much_more_than_it_holds() {
-        assert!(size_of::<Fixed>() - size_of::<State<i16>>() <= MOST_SPARE);
-        assert!(size_of::<Float>() - size_of::<State<f32>>() <= MOST_SPARE);
+        let states = [
+            (size_of::<Fixed>(), size_of::<State<i16>>()),
+            (size_of::<Float>(), size_of::<State<f32>>()),
+        ];
+        let [fixed, float] = states.map(|(_, inside)| (inside + MOST_SPARE / 2) / 8);
+        assert!(
+            states.iter().all(|(all, inside)| all - inside <= MOST_SPARE),
+            "set ANTINODE_FIXED_WORDS to {fixed}, ANTINODE_FLOAT_WORDS to {float}"
+        );
     }
 }

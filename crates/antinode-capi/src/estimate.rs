@@ -21,9 +21,9 @@ pub const ANTINODE_FLAG_MISFIT: u32 = 0x020_u32;
 /// exceeded 0.4 % of the main amplitude by 20 standard deviations of an amplitude between windows, or by 30 within one, and all if by 30
 /// or 55. After a new search a dead pick-off looks like a pattern on the other pick-off's axis, and is not flagged.
 pub const ANTINODE_FLAG_DEAD_CHANNEL: u32 = 0x040_u32;
-/// The angle is known modulo π/2 only: set on the first window after a lost wave was searched for, or after a gap, misfits or circular windows in
-/// which the pattern may have turned unseen, and on the first window after a new calibration, unless it is the first of all. The flag
-/// stays set up to and including the first window without MISFIT, NOT_FINITE and DEAD_CHANNEL, whose angle later windows continue.
+/// The angle is known modulo π/2 only: set on the first window after a lost wave was searched for, or after a gap, misfits or circular
+/// windows in which the pattern may have turned unseen, and on the first window after a new calibration, unless it is the first of all. The
+/// flag stays set up to and including the first window without MISFIT, NOT_FINITE and DEAD_CHANNEL, whose angle later windows continue.
 pub const ANTINODE_FLAG_REACQUIRED: u32 = 0x080_u32;
 /// A sample is NaN or infinite, or so large that its sums are not finite.
 pub const ANTINODE_FLAG_NOT_FINITE: u32 = 0x100_u32;

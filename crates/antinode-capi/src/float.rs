@@ -19,7 +19,7 @@ use crate::status::Status;
 /// Initialises a state from cold. Returns ANTINODE_OK, or what is wrong with the settings; the state is then not initialised. Call it
 /// before any other function, while neither side runs. Only an interrupt of the same core may break in; ANTINODE_ERROR_NOT_INITIALISED
 /// tells it that its pairs were not taken. To go on with other settings call it again, with the last angle as `start_angle_rad` and the
-/// last frequency as `frequency_hz`, so that no search is needed; times begin at 0 again.
+/// last frequency as `frequency_hz`, so that no search is needed; no other wave is then found. Times begin at 0 again.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn antinode_float_init(
     state: *mut Float,

@@ -51,7 +51,8 @@ pub struct Settings {
     /// without a fault be flagged ANTINODE_FLAG_CLIPPED or ANTINODE_FLAG_MISFIT: give it.
     pub resolution: f32,
     /// The wave's frequency, Hz, if it is known, and stays so, within 5 %: it is then never searched for, and the first window begins with
-    /// the first sample. `sample_rate_hz` / 200 to `sample_rate_hz` / 2.5; 0, the default: the period is found as `detection` says.
+    /// the first sample. `sample_rate_hz` / ANTINODE_LONGEST_PERIOD to `sample_rate_hz` / 2.5; 0, the default: the period is found as
+    /// `detection` says.
     pub frequency_hz: f32,
     /// How the period is found: ANTINODE_DETECTION_DIFFERENCE, the default, or ANTINODE_DETECTION_MEAN_RETURN.
     pub detection: u32,

@@ -4,11 +4,6 @@ use core::ffi::{CStr, c_char};
 
 use antinode::SettingsError;
 
-use crate::capacity::ANTINODE_MOST_PERIODS;
-
-// The text of ErrorPeriods states this number.
-const _: () = assert!(ANTINODE_MOST_PERIODS == 50);
-
 /// What a function returns: zero or above if it was done; below zero if it failed and nothing was done.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(i32)]
@@ -26,7 +21,8 @@ pub enum Status {
     ErrorNull = -1,
     /// A pointer is not aligned as its type demands.
     ErrorAlignment = -2,
-    /// The state was never initialised, its last `_init` failed, or it belongs to the other arithmetic.
+    /// The state was never initialised, its last `_init` failed, or it belongs to the other arithmetic. In memory that a reset does not
+    /// clear, a state from before it, perhaps half written, counts as initialised: enable the interrupt after `_init`.
     ErrorNotInitialised = -3,
     /// An array would be larger than the address space.
     ErrorCount = -4,
@@ -54,7 +50,7 @@ pub enum Status {
     ErrorPickOffAngle = -20,
     /// `hum` is neither 0 nor 1, or windows with it have fewer than 5 periods, or 10 with a hop.
     ErrorHum = -21,
-    /// `frequency_hz` is neither 0 nor within `sample_rate_hz` / 200 to `sample_rate_hz` / 2.5.
+    /// `frequency_hz` is neither 0 nor within `sample_rate_hz` / ANTINODE_LONGEST_PERIOD to `sample_rate_hz` / 2.5.
     ErrorFrequency = -22,
     /// `coloured` is neither 0 nor 1.
     ErrorColoured = -23,
@@ -88,7 +84,7 @@ impl Status {
         ),
         (
             Self::ErrorPeriods,
-            c"periods must lie within 2 to 50",
+            c"periods must lie within 2 to ANTINODE_MOST_PERIODS",
         ),
         (Self::ErrorHop, c"hop_blocks must lie within 0 to 65535"),
         (
@@ -120,7 +116,7 @@ impl Status {
         ),
         (
             Self::ErrorFrequency,
-            c"frequency_hz must be 0 or lie within sample_rate_hz / 200 and sample_rate_hz / 2.5",
+            c"frequency_hz must be 0 or lie within sample_rate_hz / ANTINODE_LONGEST_PERIOD and sample_rate_hz / 2.5",
         ),
         (Self::ErrorColoured, c"coloured must be 0 or 1"),
     ];
@@ -162,8 +158,9 @@ pub extern "C" fn antinode_status_string(status: i32) -> *const c_char {
 /// The version of this header: major × 65536 + minor × 256 + patch.
 pub const ANTINODE_VERSION: u32 = 0x00_0100_u32;
 
-/// The version of the library that is linked. It must equal ANTINODE_VERSION: otherwise header and library do not belong together, and
-/// sizes may differ. May be called from anywhere.
+/// The version of the library that is linked. ANTINODE_VERSION may differ from it in the last eight bits, the patch, which changes no
+/// type and no function; otherwise header and library do not belong together. Compare the size of a state too, which depends on how the
+/// library was built, before its `_init`. May be called from anywhere.
 #[allow(unsafe_code, reason = "`no_mangle` is an unsafe attribute")]
 #[unsafe(no_mangle)]
 pub extern "C" fn antinode_version() -> u32 {
@@ -187,7 +184,7 @@ mod tests {
 
     #[test]
     fn every_number_has_a_text() {
-        assert_eq!(text(-11), "periods must lie within 2 to 50");
+        assert_eq!(text(-12), "hop_blocks must lie within 0 to 65535");
         assert_eq!(text(i32::MIN), "unknown status");
         for (status, string) in Status::ALL {
             assert_eq!(text(status as i32), string.to_str().unwrap());

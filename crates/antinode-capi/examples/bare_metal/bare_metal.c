@@ -53,12 +53,18 @@ static void print_bits(const antinode_estimate_t *e)
 
 int main(void)
 {
-    const antinode_settings_t settings = antinode_settings_default(100e3);
-    antinode_status_t status = CALL(init)(&gyro, &settings);
+    antinode_settings_t settings;
+    antinode_status_t status;
     antinode_estimate_t estimate;
     size_t at = 0;
 
-    if (antinode_version() != ANTINODE_VERSION || status != ANTINODE_OK) {
+    if (antinode_version() >> 8 != ANTINODE_VERSION >> 8 || CALL(size)() != sizeof gyro) {
+        printf("this is not the header of the library that is linked\n");
+        return 1;
+    }
+    settings = antinode_settings_default(100e3);
+    status = CALL(init)(&gyro, &settings);
+    if (status != ANTINODE_OK) {
         printf("init: %s\n", antinode_status_string(status));
         return 1;
     }

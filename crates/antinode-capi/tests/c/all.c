@@ -39,6 +39,7 @@ int main(void)
     sink = CALL(reset)(&state);
     text = antinode_status_string(sink);
     sink = (int32_t)antinode_version();
+    sink = (int32_t)CALL(size)();
 #endif
     return 0;
 }

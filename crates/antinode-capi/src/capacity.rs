@@ -96,7 +96,9 @@ mod tests {
         ];
         let [fixed, float] = states.map(|(_, inside)| (inside + MOST_SPARE / 2) / 8);
         assert!(
-            states.iter().all(|(all, inside)| all - inside <= MOST_SPARE),
+            states
+                .iter()
+                .all(|(all, inside)| all - inside <= MOST_SPARE),
             "set ANTINODE_FIXED_WORDS to {fixed}, ANTINODE_FLOAT_WORDS to {float}"
         );
     }

@@ -99,9 +99,10 @@
 // The samples are not one wave with steady rates plus noise: there is a step, a dropout or a second tone within the window.
 #define ANTINODE_FLAG_MISFIT 32u
 
-// A pick-off gave a constant value, or lost its wave while the other kept it. Half of such losses are flagged if the lost wave
-// exceeded 0.4 % of the main amplitude by 20 standard deviations of an amplitude between windows, or by 30 within one, and all if by 30
-// or 55. After a new search a dead pick-off looks like a pattern on the other pick-off's axis, and is not flagged.
+// A pick-off gave a constant value, though before its wave was larger than `resolution`, or lost its wave while the other kept it. Half of
+// such losses are flagged if the lost wave exceeded 0.4 % of the main amplitude by 20 standard deviations of an amplitude between windows,
+// or by 30 within one, and all if by 30 or 55. After a new search a dead pick-off looks like a pattern on the other pick-off's axis, and
+// is not flagged.
 #define ANTINODE_FLAG_DEAD_CHANNEL 64u
 
 // The angle is known modulo pi/2 only: set on the first window after a lost wave was searched for, or after a gap, misfits or circular
@@ -204,8 +205,8 @@ typedef struct antinode_settings_t {
     // Sample rate, Hz. 1 to 1e10.
     double sample_rate_hz;
     // Length of a window, periods. 2 to ANTINODE_MOST_PERIODS; default 10. A window is a whole number of blocks, a block a whole number of
-    // samples: so the length may be off by up to a tenth, and by more if a known frequency has few samples a period: 2 periods of 2.6
-    // samples become 2.31.
+    // samples: so the length may be off by up to a tenth, with `hum` a ninth, and by more if a known frequency has few samples a period: 2
+    // periods of 2.6 samples become 2.31.
     uint32_t periods;
     // Blocks from the start of one window to the start of the next, 1 to 65535; a block is then about a period, or a tenth of a window of
     // less than ten periods, rounded to whole samples: 0.87 to 1.33 periods if these are short. For windows that follow each other without
@@ -235,7 +236,7 @@ typedef struct antinode_settings_t {
     uint32_t watch;
     // How the pick-offs differ from ideal ones. Default: ideal.
     struct antinode_calibration_t calibration;
-    // 1 if the signals carry hum or another slow wander: each block, of a period or more, then has an offset of its own, and what only
+    // 1 if the signals carry hum or another slow wander: each block, of 0.9 periods or more, then has an offset of its own, and what only
     // moves offsets is neither noise nor a fault. Windows must then have at least 5 periods, or 10 with a hop. 0, the default: they do
     // not.
     uint32_t hum;

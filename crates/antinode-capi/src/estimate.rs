@@ -17,9 +17,10 @@ pub const ANTINODE_FLAG_STEP: u32 = 0x008_u32;
 pub const ANTINODE_FLAG_CIRCULAR: u32 = 0x010_u32;
 /// The samples are not one wave with steady rates plus noise: there is a step, a dropout or a second tone within the window.
 pub const ANTINODE_FLAG_MISFIT: u32 = 0x020_u32;
-/// A pick-off gave a constant value, or lost its wave while the other kept it. Half of such losses are flagged if the lost wave
-/// exceeded 0.4 % of the main amplitude by 20 standard deviations of an amplitude between windows, or by 30 within one, and all if by 30
-/// or 55. After a new search a dead pick-off looks like a pattern on the other pick-off's axis, and is not flagged.
+/// A pick-off gave a constant value, though before its wave was larger than `resolution`, or lost its wave while the other kept it. Half of
+/// such losses are flagged if the lost wave exceeded 0.4 % of the main amplitude by 20 standard deviations of an amplitude between windows,
+/// or by 30 within one, and all if by 30 or 55. After a new search a dead pick-off looks like a pattern on the other pick-off's axis, and
+/// is not flagged.
 pub const ANTINODE_FLAG_DEAD_CHANNEL: u32 = 0x040_u32;
 /// The angle is known modulo π/2 only: set on the first window after a lost wave was searched for, or after a gap, misfits or circular
 /// windows in which the pattern may have turned unseen, and on the first window after a new calibration, unless it is the first of all. The

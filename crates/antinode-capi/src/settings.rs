@@ -31,8 +31,8 @@ pub struct Settings {
     /// Sample rate, Hz. 1 to 1e10.
     pub sample_rate_hz: f64,
     /// Length of a window, periods. 2 to ANTINODE_MOST_PERIODS; default 10. A window is a whole number of blocks, a block a whole number of
-    /// samples: so the length may be off by up to a tenth, and by more if a known frequency has few samples a period: 2 periods of 2.6
-    /// samples become 2.31.
+    /// samples: so the length may be off by up to a tenth, with `hum` a ninth, and by more if a known frequency has few samples a period: 2
+    /// periods of 2.6 samples become 2.31.
     pub periods: u32,
     /// Blocks from the start of one window to the start of the next, 1 to 65535; a block is then about a period, or a tenth of a window of
     /// less than ten periods, rounded to whole samples: 0.87 to 1.33 periods if these are short. For windows that follow each other without
@@ -62,7 +62,7 @@ pub struct Settings {
     pub watch: u32,
     /// How the pick-offs differ from ideal ones. Default: ideal.
     pub calibration: Calibration,
-    /// 1 if the signals carry hum or another slow wander: each block, of a period or more, then has an offset of its own, and what only
+    /// 1 if the signals carry hum or another slow wander: each block, of 0.9 periods or more, then has an offset of its own, and what only
     /// moves offsets is neither noise nor a fault. Windows must then have at least 5 periods, or 10 with a hop. 0, the default: they do
     /// not.
     pub hum: u32,

@@ -10,7 +10,7 @@ use crate::phase::Phase;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(default))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct Calibration {
     /// g, gain of channel D over that of channel C. 0.1 to 10; 1 is ideal.
     pub gain_ratio: f32,

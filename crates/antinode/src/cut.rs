@@ -11,6 +11,8 @@ const MAX_BLOCK_PERIODS: f32 = 2.0;
 const MAX_BLOCK_PAIRS: f32 = 65_534.0;
 /// A window has at most this many blocks, or as many as periods if these are more.
 pub(crate) const MAX_BLOCKS: u16 = 11;
+/// Periods above which a block may have an offset of its own: in shorter ones the wave itself looks like one.
+pub(crate) const MIN_HUM_PERIODS: f32 = 0.9;
 /// Fewest sample pairs of a window.
 const MIN_PAIRS: u16 = 6;
 /// Error of a window's length, as a share of it, beyond which other block lengths are tried.
@@ -23,6 +25,9 @@ pub(crate) struct Cut {
     pub periods: u16,
     /// True if windows move on by a hop and not by their length.
     pub has_hop: bool,
+    /// True if blocks are to have offsets of their own, for which those of a window of [`min_hum_periods`](Self::min_hum_periods) or more
+    /// are then long enough.
+    pub own_offsets: bool,
 }
 
 impl Cut {
@@ -39,23 +44,29 @@ impl Cut {
             // Even, as samples are summed in twos.
             2 * rounded(0.5 * lesser(longest, MAX_BLOCK_PAIRS))
         };
-        self.fitting(window, length.max(1)).min(max_length).max(1)
+        let least = if self.own_offsets && self.periods >= self.min_hum_periods() {
+            (MIN_HUM_PERIODS * period) as u16 + 1
+        } else {
+            1
+        };
+        self.fitting(window, length, least).min(max_length)
     }
 
-    /// Fewest periods of a window whose blocks have a period each, or a little less if that is no whole number of samples, as hum needs.
+    /// Fewest periods of a window whose blocks have a period each, or up to a tenth less if that is no whole number of samples, as hum needs.
     pub(crate) const fn min_hum_periods(self) -> u16 {
         let blocks = MIN_BLOCKS as u16;
         if self.has_hop { 2 * blocks } else { blocks }
     }
 
-    /// The first length, from `length` down to half of it, of which whole blocks come near enough to `window` samples, else the nearest.
-    fn fitting(self, window: f32, mut length: u16) -> u16 {
+    /// The first length, from `length` down to half of it and to `least`, of which whole blocks come near enough to `window` samples, else
+    /// the nearest.
+    fn fitting(self, window: f32, mut length: u16, least: u16) -> u16 {
         let max_count = self.periods.max(MAX_BLOCKS);
-        if nearest_count(window, length) > max_count {
+        if length < least || nearest_count(window, length) > max_count {
             length += 1;
         }
         let off = |length: u16, count: u16| (f32::from(count) * f32::from(length) - window).abs();
-        let (shortest, mut nearest) = (length.div_ceil(2), length);
+        let (shortest, mut nearest) = (length.div_ceil(2).max(least), length);
         let mut nearest_off = off(length, nearest_count(window, length));
         while nearest_off > MAX_LENGTH_ERROR * window && length > shortest {
             length -= 1;
@@ -104,9 +115,16 @@ mod tests {
     fn blocks_of_any_length_make_a_window_and_fit_the_smallest_ring_that_is_accepted() {
         // The longest block of a front; two of the longest periods do not fit in it.
         for max_length in [200u16, 1024, 32_766, 65_534] {
-            for has_hop in [false, true] {
+            for (has_hop, own_offsets) in
+                [(false, false), (true, false), (false, true), (true, true)]
+            {
                 for periods in (2..=100).chain([1000]) {
-                    let cut = Cut { periods, has_hop };
+                    let cut = Cut {
+                        periods,
+                        has_hop,
+                        own_offsets,
+                    };
+                    let most_off = if own_offsets { 0.112 } else { 0.1 };
                     for i in 0..=400 {
                         let period =
                             2.5 * libm::powf(f32::from(max_length) / 2.5, i as f32 / 400.0);
@@ -120,7 +138,7 @@ mod tests {
                             length <= max_length
                                 && (4..=periods.max(MAX_BLOCKS)).contains(&blocks)
                                 && samples >= least
-                                && (off < 0.1 || samples == least),
+                                && (off < most_off || samples == least),
                             "{period} samples a period, {periods} periods, hop {has_hop}, blocks up to {max_length}: {blocks} of {length}"
                         );
                         // As the C header states.
@@ -129,6 +147,11 @@ mod tests {
                         assert!(
                             !has_hop || periods < 10 || is_about_a_period,
                             "{period} samples a period, {periods} periods: a block of {block}"
+                        );
+                        let is_long = block > MIN_HUM_PERIODS || length == max_length;
+                        assert!(
+                            !own_offsets || periods < cut.min_hum_periods() || is_long,
+                            "{period} samples a period, {periods} periods: a block of {block} for hum"
                         );
                     }
                 }

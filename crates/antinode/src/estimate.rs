@@ -29,14 +29,15 @@ impl Flags {
     pub const CIRCULAR: Self = Self(1 << 4);
     /// The samples are not one wave with steady rates plus noise: a step, a dropout, a second tone within the window.
     pub const MISFIT: Self = Self(1 << 5);
-    /// One pick-off gave one and the same value for the whole window, or lost its wave while the other kept it. Half of such losses are
-    /// flagged if the wave lost exceeds 0.4 % of a_A by 20 deviations of an amplitude between windows, or by 30 within one, and all if it
-    /// does by 30 or 55. After a new search a dead pick-off looks like a pattern on the other's axis, and is not flagged.
+    /// One pick-off gave one and the same value for the whole window, though before its wave was larger than a step of the converter, if
+    /// that is [known](crate::Settings::resolution), or lost its wave while the other kept it. Half of such losses are flagged if the wave
+    /// lost exceeds 0.4 % of a_A by 20 deviations of an amplitude between windows, or by 30 within one, and all if it does by 30 or 55.
+    /// After a new search a dead pick-off looks like a pattern on the other's axis, and is not flagged.
     pub const DEAD_CHANNEL: Self = Self(1 << 6);
-    /// First window after a lost wave was searched for, or after a gap, misfits or circular windows in which the pattern may have turned by a quarter
-    /// turn more or less: the angle is known modulo π/2 only. Also the first window after a change of calibration or settings, unless it is
-    /// the first of all, or the change was by `configure`, which begins at the start angle. The flag stands up to and in the first window
-    /// without a misfit, whose angle later windows continue.
+    /// First window after a lost wave was searched for, or after a gap, misfits or circular windows in which the pattern may have turned by
+    /// a quarter turn more or less: the angle is known modulo π/2 only. Also the first window after a change of calibration or settings,
+    /// unless it is the first of all, or the change was by `configure`, which begins at the start angle. The flag stands up to and in the
+    /// first window without a misfit, whose angle later windows continue.
     pub const REACQUIRED: Self = Self(1 << 7);
     /// A sample is NaN or infinite, or so large that its square is infinite.
     pub const NOT_FINITE: Self = Self(1 << 8);

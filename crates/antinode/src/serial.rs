@@ -102,6 +102,11 @@ mod tests {
         assert_eq!(serde_json::from_str::<Settings>(&text).unwrap(), settings);
         let defaults: Settings = serde_json::from_str("{\"sample_rate\": 1e5}").unwrap();
         assert_eq!(defaults, Settings::new(1e5));
+        for misspelt in ["\"hopp\": 5", "\"calibration\": {\"skw\": 1e-7}"] {
+            let text = format!("{{\"sample_rate\": 1e5, {misspelt}}}");
+            let fault = serde_json::from_str::<Settings>(&text).unwrap_err();
+            assert!(fault.is_data(), "{fault}");
+        }
         let skewed = "{\"sample_rate\": 1e5, \"calibration\": {\"skew\": 1e-7}}";
         let skewed: Settings = serde_json::from_str(skewed).unwrap();
         let calibration = Calibration {

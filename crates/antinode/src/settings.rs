@@ -51,11 +51,12 @@ pub enum Detection {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Settings {
     /// Sample rate in Hz, 10⁻³ to 10¹².
     pub sample_rate: f64,
     /// Length of a window in periods: from 2 to two fewer than the ring's blocks, and at most 60 000; 10 unless changed. A window is a
-    /// whole number of blocks, so its length may be up to a tenth off, and has at least 6 sample pairs. A block has up to two periods, or a
+    /// whole number of blocks, so its length may be up to a tenth off, or a ninth with `hum`, and has at least 6 sample pairs. A block has up to two periods, or a
     /// fifth of the window if that is less.
     #[cfg_attr(feature = "serde", serde(default = "crate::serial::periods"))]
     pub periods: u16,
@@ -86,8 +87,8 @@ pub struct Settings {
     /// and other faults are found later. It about doubles the work at sample rate.
     #[cfg_attr(feature = "serde", serde(default = "crate::serial::watch"))]
     pub watch: bool,
-    /// True if the signals carry hum or another slow wander: each block of a period or more then has an offset of its own, and what only
-    /// moves an offset is neither noise nor a fault. Windows must have at least 5 periods for it, or 10 with a hop.
+    /// True if the signals carry hum or another slow wander: each block, then of at least 0.9 periods, has an offset of its own, and what
+    /// only moves an offset is neither noise nor a fault. Windows must have at least 5 periods for it, or 10 with a hop.
     #[cfg_attr(feature = "serde", serde(default))]
     pub hum: bool,
     /// True if the noise is not white. Behind a tuned front end, or a filter that cuts off below three times the frequency, noise about
@@ -333,6 +334,7 @@ impl Settings {
         Cut {
             periods: self.periods,
             has_hop: self.hop.is_some(),
+            own_offsets: self.hum || self.coloured,
         }
     }
 

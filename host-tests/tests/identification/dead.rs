@@ -1,7 +1,10 @@
 //! A pick-off that dies is flagged, however small its part of the wave was; a pattern that turns to the other one's axis is not.
 
+use std::f64::consts::FRAC_PI_4;
+
 use antinode::{Flags, Settings};
 use antinode_sim::{Flaws, Gyro, Wave, random_wave};
+use host_tests::codes::{self, codes, identify};
 use host_tests::{Core, RATE, stream, windows};
 
 /// Share of a_A that a pick-off's wave must exceed for its loss to be flagged.
@@ -131,6 +134,54 @@ fn patterns_that_turn_past_the_axes_are_no_dead_pick_offs() {
         }
     }
     assert!(count > 30_000);
+}
+
+#[test]
+fn a_pattern_that_stays_on_an_axis_is_no_dead_pick_off_in_coarse_codes() {
+    // For a second or more one pick-off's wave is below half a step, and its noise hardly ever crosses one: constant codes.
+    let (mut constant, mut rows) = (0, 0);
+    for seed in 0..8 {
+        let axis = if seed % 2 == 0 { 0.0 } else { FRAC_PI_4 };
+        let wave = Wave {
+            main_amplitude: 1500.0,
+            quadrature_amplitude: 0.05,
+            angle: axis - 0.002,
+            angle_rate: 1e-3,
+            ..Wave::default()
+        };
+        let flaws = Flaws {
+            noise: 0.1,
+            offset_c: 0.1 - 0.02 * seed as f64,
+            offset_d: 0.05,
+            bits: Some(12),
+            full_scale: 2048.0,
+            ..Flaws::default()
+        };
+        let pairs = codes(wave, &flaws, 400_000, seed);
+        for window in pairs.chunks(188) {
+            let is_constant = |i: usize| window.iter().all(|pair| pair[i] == window[0][i]);
+            constant += u32::from(is_constant(0) || is_constant(1));
+        }
+        for estimate in identify(&pairs, codes::settings(12, 10), |code| code as i16) {
+            let told = estimate.flags;
+            rows += 1;
+            assert!(!told.contains(Flags::DEAD_CHANNEL), "{seed}: {estimate:?}");
+        }
+        // The same wire, cut while it has a wave of two codes and more.
+        let mut cut = pairs;
+        let silent = usize::from(seed % 2 == 0);
+        for pair in &mut cut[40_000..] {
+            pair[silent] = 0;
+        }
+        let found = identify(&cut, codes::settings(12, 10), |code| code as i16);
+        let after = found.iter().filter(|e| e.start >= 40_000);
+        assert!(after.clone().count() > 1500);
+        for estimate in after {
+            let told = estimate.flags;
+            assert!(told.contains(Flags::DEAD_CHANNEL), "{seed}: {told}");
+        }
+    }
+    assert!(constant > 600 && rows > 15_000, "{constant} of {rows}");
 }
 
 #[test]

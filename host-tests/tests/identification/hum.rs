@@ -56,6 +56,31 @@ fn slow_waves_in_much_hum_are_not_clipped() {
 }
 
 #[test]
+fn hum_is_no_fault_at_any_period() {
+    // Whole blocks of five periods come no nearer than a tenth to a window if they have a period or more each: 6.5 samples and others.
+    for periods in [5, 6, 7] {
+        for period in [2.7, 3.58, 4.5, 5.4, 6.5, 7.4, 8.5, 10.5, 12.5, 18.9] {
+            let wave = random_wave(3, RATE / period, 0.5);
+            let noise = 1e-3 * wave.main_amplitude;
+            let samples = (period * f64::from(periods) * 100.0) as usize;
+            let size = 0.3 * wave.main_amplitude;
+            let settings = Settings {
+                frequency: Some(wave.frequency as f32),
+                ..settings(periods, true)
+            };
+            let found = identified(wave, Flaws::white(noise), size, samples, settings, 3);
+            assert!(found.len() > 85, "{}", found.len());
+            for estimate in &found {
+                let label = format!("{period} samples a period, {periods} periods");
+                assert!(estimate.flags.is_empty(), "{label}: {}", estimate.flags);
+                let residual = f64::from(estimate.residual_rms) / noise;
+                assert!(residual < 2.0, "{label}: {residual} of the noise");
+            }
+        }
+    }
+}
+
+#[test]
 fn the_bound_is_reached_in_hum() {
     // Offsets are fitted to runs of five blocks: with 12 and 22 periods the last block is alone in its run. Blocks of a slower wave are
     // longer, and hum moves further in each.

@@ -1,5 +1,6 @@
 //! Effects of the converter on a window: its steps, its rails, and channels that stand still.
 
+use super::record::Record;
 use super::standing::Standing;
 use crate::arch::square_root;
 use crate::estimate::Flags;
@@ -94,7 +95,7 @@ const EVERY_BLOCK_HUM_REACH: f32 = 1.5;
 const HARMONICS: f32 = 0.01;
 
 /// Flags of the faults that single samples show, in a window of `blocks` with a wave of `step` a sample and a noise variance of `noise`;
-/// `is_first` if no clean window came before.
+/// `before` is the last clean window.
 #[inline]
 pub(super) fn sample_flags(
     settings: &Settings,
@@ -103,7 +104,7 @@ pub(super) fn sample_flags(
     fit: &Fit,
     wave: &Standing,
     noise: f32,
-    is_first: bool,
+    before: Option<&Record>,
 ) -> Flags {
     let is_broken = !wave.record.main.value.is_finite();
     let flags = Flags::empty().with_if(is_broken, Flags::NOT_FINITE.with(Flags::LOST));
@@ -126,7 +127,7 @@ pub(super) fn sample_flags(
             range.longest > crest && range.is_flat(blocks, main, crest, [arc, deviation])
         };
     let misfit = range.is_beyond(fit, SAMPLE_SIGMAS * deviation + HARMONICS * main)
-        || (is_first || deviation > LOUD_NOISE * main)
+        || (before.is_none() || deviation > LOUD_NOISE * main)
             && are_all_beyond(
                 blocks,
                 fit,
@@ -136,7 +137,12 @@ pub(super) fn sample_flags(
         .with_if(clipped, Flags::CLIPPED)
         .with_if(misfit, Flags::MISFIT)
         .with_if(
-            (0..2).any(|i| range.low[i] == range.high[i]),
+            (0..2).any(|i| {
+                // A wave that was within a step of the converter may leave a constant code: that of a pattern on the other pick-off's axis.
+                let step = settings.resolution.unwrap_or(0.0);
+                range.low[i] == range.high[i]
+                    && !before.is_some_and(|before| before.channel_power[i] < step * step)
+            }),
             Flags::DEAD_CHANNEL,
         )
 }

@@ -99,7 +99,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
             fit,
             wave,
             greater(own, wave.noise),
-            self.before.is_none(),
+            self.before.as_ref(),
         ));
         let (mut between, mut offset_rates) = (Flags::empty(), self.offset_rates);
         if let Some(before) = &self.before {

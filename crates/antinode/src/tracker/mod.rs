@@ -302,8 +302,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// continues the angle. [`configure`](Self::configure) begins with the start angle instead, and must come first: otherwise the angle
     /// begins at 0.
     ///
-    /// The front needs the same `sample_rate`, `frequency`, `periods`, `hop`, `detection` and `watch`; if it is configured anew, call
-    /// [`search`](Self::search) here too, [in the right order](crate#on-a-microcontroller), so that blocks from before are left out.
+    /// The front needs the same `sample_rate`, `frequency`, `periods`, `hop`, `hum`, `coloured`, `detection` and `watch`; if it is configured
+    /// anew, call [`search`](Self::search) here too, [in the right order](crate#on-a-microcontroller), so that blocks from before are left out.
     ///
     /// # Errors
     ///

@@ -6,10 +6,8 @@ use super::normal::{Covariance, Normal, PARAMETERS, Row};
 use super::response::{Answer, Basis, Response};
 use crate::block::Layout;
 use crate::calibration::{Calibration, Correction};
+use crate::cut::MIN_HUM_PERIODS;
 use crate::phase::{Phase, PhaseStep};
-
-/// Shortest block, in periods, that can have an offset of its own: a little less than one, as it is a whole number of samples.
-const MIN_PERIODS_WITH_OFFSET: f32 = 0.9;
 
 /// A window of blocks about a carrier, whatever its samples are.
 #[derive(Debug, Clone)]
@@ -79,7 +77,7 @@ impl Model {
         let layout = self.layout;
         self.basis = Basis::new(layout);
         // An offset of its own costs a block of a period or more next to nothing, but a shorter one what it knows of the wave.
-        let is_long = f32::from(layout.length) > MIN_PERIODS_WITH_OFFSET * layout.step.period();
+        let is_long = f32::from(layout.length) > MIN_HUM_PERIODS * layout.step.period();
         self.shared = if own_offsets && is_long { 0.0 } else { 1.0 };
     }
 
@@ -196,7 +194,11 @@ mod tests {
     fn every_window_has_degrees_of_freedom_for_its_noise() {
         for periods in [2, 3, 4, 5, 7, 10, 20] {
             for (has_hop, own_offsets) in [(false, false), (true, false), (false, true)] {
-                let cut = Cut { periods, has_hop };
+                let cut = Cut {
+                    periods,
+                    has_hop,
+                    own_offsets,
+                };
                 for i in 0..200 {
                     // 2.5 to 200 samples a period.
                     let period = 2.5 * libm::powf(200.0 / 2.5, i as f32 / 200.0);
@@ -205,6 +207,9 @@ mod tests {
                     let (blocks, ideal) = (cut.blocks(layout), Calibration::IDEAL);
                     let model = Model::new(layout, layout.step, blocks, ideal, 1e5, own_offsets);
                     let freedom = model.freedom();
+                    if own_offsets && periods >= cut.min_hum_periods() {
+                        assert_eq!(model.shared, 0.0, "{period}, {periods}");
+                    }
                     assert!(
                         freedom >= 2.0,
                         "{period}, {periods}, {has_hop}, {own_offsets}: {freedom}"

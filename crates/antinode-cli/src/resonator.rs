@@ -29,7 +29,7 @@ use crate::failure::Failure;
 use crate::given_rows::GivenRows;
 use crate::options::Format;
 use crate::runs::driven::{self, undriven};
-use crate::runs::{Run, Runs};
+use crate::runs::{BEYOND_NOISE, Run, Runs};
 use crate::serialized;
 use fit::fit;
 use found::Found;
@@ -46,6 +46,8 @@ const BREAKS: Flags = Flags::REACQUIRED.with(Flags::PHASE_JUMP).with(Flags::STEP
 const DECAY_SEEN: f64 = 3.0;
 /// Relative change of an amplitude per radian that the pattern turns, which is no drive: a gain ratio that is 30 % off causes it.
 const BY_FLAWS: f64 = 0.6;
+/// Rows that may be driven are left out if the residual of the others is that of noise, or below this share of that of all.
+const MAX_RESIDUAL_SHARE: f64 = 0.05;
 /// Correlation of consecutive residuals that an unnoticed overlap of windows may cause, and the deviations that chance may add.
 const MAX_CORRELATION: f64 = 0.03;
 const SIGNIFICANT: f64 = 5.0;
@@ -82,13 +84,39 @@ impl Results {
     }
 }
 
+/// The fit to the rows in which nothing drives the wave, with their runs and the driven ones.
+///
+/// What flaws of pick-offs may add to a wave's energy while its pattern turns hides that it is held. So if more than noise is left, driven
+/// rows are sought as if there were no flaws, and left out if the others then agree far better.
+fn decaying(runs: &[Run]) -> (Option<Found>, [Vec<Run>; 2]) {
+    let energies: Vec<_> = runs.iter().map(Run::energies).collect();
+    let parts = undriven(runs, &energies, BY_FLAWS);
+    let found = fit(&parts[0]);
+    let residual = found.as_ref().map_or(f64::INFINITY, |found| found.residual);
+    if residual < BEYOND_NOISE {
+        return (found, parts);
+    }
+    let fewer = undriven(runs, &energies, 0.0);
+    if fewer[0].is_empty() || fewer[1].len() == parts[1].len() {
+        return (found, parts);
+    }
+    // A damping that changes explains what flaws leave of fewer rows too.
+    let better = fit(&fewer[0]).filter(|better| {
+        better.is_damping_steady()
+            && better.residual < BEYOND_NOISE.max(MAX_RESIDUAL_SHARE * residual)
+    });
+    match better {
+        Some(better) => (Some(better), fewer),
+        None => (found, parts),
+    }
+}
+
 /// Finds the resonator and prints it.
 pub fn run(options: &Resonator) -> Result<(), Failure> {
     let (mut rows, name) = Runs::open(&options.given, MAX_TURN, BREAKS)?;
-    let energies: Vec<_> = rows.runs.iter().map(Run::energies).collect();
-    let [runs, driven] = undriven(&rows.runs, &energies, BY_FLAWS);
+    let (found, [runs, driven]) = decaying(&rows.runs);
     rows.runs = runs;
-    let found = fit(&rows.runs).ok_or_else(|| {
+    let found = found.ok_or_else(|| {
         Failure::Fault(format!(
             "{name}: no resonator explains the rows: check that nothing drives the gyro while it rings down, and leave out outlying rows (see \
              --from and --to)"

@@ -1,4 +1,4 @@
-//! Whether the damping changes while waves ring down, by temperature or by amplitude.
+//! Whether the damping changes from run to run, or while waves ring down, by temperature or by amplitude.
 
 use nalgebra::DVector;
 
@@ -18,7 +18,12 @@ const USED: f64 = 2.0;
 /// A change that takes more than a parabola in each run is taken to depend on the amplitude if that explains as much. Otherwise nothing
 /// tells the two apart, and the decay of small waves would be far off.
 pub fn changing(runs: &[Run], found: Found) -> Found {
-    let mut in_time: Option<Found> = None;
+    // Runs of different decay times that do not change meanwhile need no curves.
+    let mut in_time = if runs.len() > 1 && found.model.is_shared() {
+        changed(runs, &found, Damping::InTime(0), SIGNIFICANT).map(|(found, _)| found)
+    } else {
+        None
+    };
     let mut is_parabola = true;
     for curves in 1..=MAX_IN_TIME {
         let from = in_time.as_ref().unwrap_or(&found);
@@ -70,7 +75,8 @@ fn changed(runs: &[Run], from: &Found, damping: Damping, least: f64) -> Option<(
     Some((found, seen))
 }
 
-/// Deviations by which a step from these values moves the last unknown of a damping, at most in any run.
+/// Deviations by which a step from these values moves the last unknown of a damping, at most in any run; or those of chance by which it
+/// reduces the squared residual, if each run gets a decay of its own and nothing else.
 fn seen(normal: &Normal, (model, runs): (Model, usize), values: &DVector<f64>) -> Option<f64> {
     let factors = normal.equations.factors(0.0)?;
     let step = factors.solve(normal.equations.right());
@@ -82,6 +88,11 @@ fn seen(normal: &Normal, (model, runs): (Model, usize), values: &DVector<f64>) -
     match model.damping {
         Damping::Steady => None,
         Damping::ByEnergy => Some(seen(model.by_energy_at())),
+        Damping::InTime(0) => {
+            let more = runs as f64 - 1.0;
+            let less = step.dot(normal.equations.right()) / widening;
+            Some((less - more) / (2.0 * more).sqrt())
+        }
         Damping::InTime(curves) => {
             let last = |run| model.curves_at(run) + curves - 1;
             (0..runs).map(|run| seen(last(run))).reduce(f64::max)

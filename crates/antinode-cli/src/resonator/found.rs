@@ -73,14 +73,16 @@ pub struct Moved {
 pub struct Resonator {
     /// The mean 1/τ of both modes, 1/s.
     pub decay: Measured,
+    /// 1/τ of the mode that is damped most, and of the other, 1/s.
+    pub decays: [Measured; 2],
     /// The split of damping, 1/s, and the angle at which damping is greatest, rad.
     pub damping_split: [Measured; 2],
     /// The split of frequency, rad/s, and the angle at which the frequency is highest, rad.
     pub frequency_split: [Measured; 2],
     /// Rate at which rotation turns the pattern of each run, rad/s.
     pub rotations: Vec<Measured>,
-    /// Rate at which a_A a_B of one input unit squared turns a pattern, rad/s, if that is significant and nothing but noise is left: flaws
-    /// of pick-offs look like it.
+    /// Rate at which a_A a_B of one input unit squared turns a pattern, rad/s, if that is significant, nothing but noise is left, and the
+    /// damping does not change: flaws of pick-offs, and a gain that drifts, look like it.
     pub turning_by_amplitudes: Option<Measured>,
 }
 
@@ -118,19 +120,33 @@ impl Found {
         self.sum(&terms)
     }
 
-    /// The mean 1/τ of both modes, 1/s: if each run has its own, their mean weighted by their variances.
-    fn decay(&self) -> Measured {
+    /// The mean 1/τ of both modes, 1/s, plus half the splits of damping in this direction: if each run has its own, their mean weighted by
+    /// their variances, whose deviation is wider if they differ by more than theirs.
+    fn decay(&self, [cosine, sine]: [f64; 2]) -> Measured {
         let runs = self.of_runs.len();
-        if self.model.is_decay_shared() {
-            return self.sum(&[(self.model.decay_at(0), 1.0)]);
-        }
+        let [damping, _] = self.model.splits_at();
         let mut weights = DVector::zeros(self.model.unknowns(runs));
-        for place in (0..runs).map(|run| self.model.decay_at(run)) {
-            weights[place] = 1.0 / self.variance(place);
+        let mut scatter = 0.0;
+        if self.model.is_decay_shared() {
+            weights[self.model.decay_at(0)] = 1.0;
+        } else {
+            let places: Vec<_> = (0..runs).map(|run| self.model.decay_at(run)).collect();
+            for &place in &places {
+                weights[place] = 1.0 / self.variance(place);
+            }
+            let all = weights.sum();
+            weights /= all;
+            let mean = self.values.dot(&weights);
+            let squares = places
+                .iter()
+                .map(|&place| weights[place] * (self.values[place] - mean).powi(2));
+            // Of differences that are chance this is 1/`all`, which the variance has already.
+            scatter = (squares.sum::<f64>() / (runs as f64 - 1.0).max(1.0) - 1.0 / all).max(0.0);
         }
-        weights /= weights.sum();
+        weights[damping] += 0.5 * cosine;
+        weights[damping + 1] += 0.5 * sine;
         let variance = self.factors.solve(&weights).dot(&weights) * self.widening;
-        (self.values.dot(&weights), variance.sqrt())
+        (self.values.dot(&weights), (variance + scatter).sqrt())
     }
 
     /// Sum of the squared residuals, in the rows' own deviations.
@@ -155,7 +171,12 @@ impl Found {
     pub fn resonator(&self) -> Option<Resonator> {
         let [damping, frequency] = self.model.splits_at();
         self.model.is_shared().then(|| Resonator {
-            decay: self.decay(),
+            decay: self.decay([0.0; 2]),
+            decays: [1.0, -1.0].map(|sign| {
+                let [cosine, sine] = [0, 1].map(|i| self.values[damping + i]);
+                let size = cosine.hypot(sine).max(f64::MIN_POSITIVE);
+                self.decay([cosine, sine].map(|part| sign * part / size))
+            }),
             damping_split: self.split(damping),
             frequency_split: self.split(frequency),
             rotations: (0..self.of_runs.len())
@@ -163,7 +184,7 @@ impl Found {
                 .collect(),
             turning_by_amplitudes: self
                 .turning_beyond_noise()
-                .filter(|_| !self.is_beyond_noise()),
+                .filter(|_| !self.is_turning_doubtful()),
         })
     }
 
@@ -228,9 +249,19 @@ impl Found {
             .filter(|(turning, std)| turning.abs() > NONLINEAR_REPORTED * std)
     }
 
-    /// True if it is significant, but not reported because more than noise is left.
+    /// True if something else may look like the turning by amplitudes.
+    fn is_turning_doubtful(&self) -> bool {
+        self.is_beyond_noise() || !self.is_damping_steady()
+    }
+
+    /// True if the damping does not change while a wave rings down.
+    pub fn is_damping_steady(&self) -> bool {
+        matches!(self.model.damping, Damping::Steady | Damping::InTime(0))
+    }
+
+    /// True if it is significant, but not reported because something else may look like it.
     pub fn withholds_turning(&self) -> bool {
-        self.is_beyond_noise() && self.turning_beyond_noise().is_some()
+        self.is_turning_doubtful() && self.turning_beyond_noise().is_some()
     }
 
     /// True if amplitudes turn patterns significantly.

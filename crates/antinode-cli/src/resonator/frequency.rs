@@ -20,6 +20,8 @@ pub struct Frequency {
     pub moves: Option<f64>,
     /// Its rise with the energy.
     pub by_energy: ByEnergy,
+    /// The mean of each run, Hz.
+    pub means: Vec<Measured>,
     /// Its drift in each run, Hz/s.
     pub drifts: Vec<Measured>,
 }
@@ -77,9 +79,14 @@ pub fn frequency(rows: &Runs, found: &Found) -> Frequency {
     // Uncertainty of the splits is also one of their part of the frequency.
     let (_, of_splits) = found.splits(&mean_by.map(|sum| sum / of_rows / TAU));
     let std = (widened / weights).sqrt().hypot(of_splits);
+    let means = runs.iter().map(|run| {
+        let (mean, std) = mean_of_run(run, are_weighted);
+        (from + mean, std.hypot(of_splits))
+    });
     Frequency {
         mean: (from + mean, std.hypot(moves.unwrap_or(0.0))),
         moves,
+        means: means.collect(),
         drifts: drifts.iter().map(|drift| drift.slope).collect(),
         by_energy: if is_along {
             by_energy(&runs, beside, are_weighted, by_turning(found))
@@ -87,6 +94,19 @@ pub fn frequency(rows: &Runs, found: &Found) -> Frequency {
             ByEnergy::Chance
         },
     }
+}
+
+/// The mean of a run's points, Hz, and its deviation, which is wider if they scatter by more than theirs.
+fn mean_of_run(run: &[Point], are_weighted: bool) -> Measured {
+    let weights: f64 = run.iter().map(|point| point.weight).sum();
+    let mean = run
+        .iter()
+        .map(|point| point.weight * point.excess)
+        .sum::<f64>()
+        / weights;
+    let (squares, _) = residuals(run.iter(), mean);
+    let scatter = squares / (run.len() as f64 - 1.0).max(1.0);
+    (mean, (widened(scatter, are_weighted) / weights).sqrt())
 }
 
 /// The frequency of a row, weighted by its variance if that is known.

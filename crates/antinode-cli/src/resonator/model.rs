@@ -42,7 +42,7 @@ pub enum Damping {
     Steady,
     /// In proportion to the energy, and in all runs alike.
     ByEnergy,
-    /// In each run by itself, with so many [curves](super::curve) over time, which make 1/τ one of its own too.
+    /// In each run by itself: 1/τ is one of its own, with so many [curves](super::curve) over time, or none.
     InTime(usize),
 }
 
@@ -75,7 +75,7 @@ impl Model {
 
     /// True if all runs have the same 1/τ.
     pub fn is_decay_shared(self) -> bool {
-        self.is_shared() && self.curves() == 0
+        self.is_shared() && !matches!(self.damping, Damping::InTime(_))
     }
 
     /// Number of curves of damping that a run has of its own.

@@ -35,7 +35,7 @@ impl Normal {
             let terms = model.terms(index, run);
             match model.damping {
                 // In half the time.
-                Damping::Steady => {
+                Damping::Steady | Damping::InTime(0) => {
                     normal.add::<PARAMETERS>((index, run), model, &terms, values, None);
                 }
                 Damping::ByEnergy | Damping::InTime(_) => {

@@ -15,6 +15,9 @@ use crate::runs::{BEYOND_NOISE, Run, turn};
 const MAX_NAMED: usize = 5;
 /// Turn of a pattern within a run, rad, beyond which flaws of the pick-offs look like splits.
 const TURNS: f64 = PI / 8.0;
+/// Difference of runs' frequencies, as a share of them, beyond which these are hardly of one resonator: one of fused silica takes 50 K for
+/// it.
+const MAX_APART: f64 = 5e-3;
 /// Runs at rest from which on these determine the splits whatever the flaws.
 const ENOUGH_STILL: usize = 2;
 
@@ -22,6 +25,7 @@ const ENOUGH_STILL: usize = 2;
 pub fn write_notes(out: &mut impl Write, results: &Results) -> io::Result<()> {
     note_runs(out, results)?;
     note_splits(out, results)?;
+    note_others(out, &results.frequency)?;
     note_frequency(out, &results.frequency)?;
     note_damping(out, &results.found)?;
     if results.found.model.is_unsteady() {
@@ -65,8 +69,8 @@ fn note_runs(out: &mut impl Write, results: &Results) -> io::Result<()> {
         out,
         &steady,
         [
-            "does not decay significantly: record longer",
-            "do not decay significantly: record longer",
+            "does not decay significantly: record longer, or check that nothing drives it",
+            "do not decay significantly: record longer, or check that nothing drives them",
         ],
     )
 }
@@ -151,6 +155,23 @@ fn is_one_pattern(results: &Results) -> bool {
     })
 }
 
+/// Warns if the frequencies of runs are those of different resonators.
+fn note_others(out: &mut impl Write, frequency: &Frequency) -> io::Result<()> {
+    let each = || frequency.means.iter().map(|&(mean, _)| mean);
+    let (least, most) = (
+        each().fold(f64::INFINITY, f64::min),
+        each().fold(0.0, f64::max),
+    );
+    if most - least > MAX_APART * most {
+        writeln!(
+            out,
+            "warning: the runs' frequencies are up to {:.1} Hz apart: give the rows of one resonator at a time, at temperatures that are alike",
+            most - least
+        )?;
+    }
+    Ok(())
+}
+
 /// Warns if the frequency moves, and says what is known of the cause.
 fn note_frequency(out: &mut impl Write, frequency: &Frequency) -> io::Result<()> {
     if let Some(moves) = frequency.moves {
@@ -187,6 +208,13 @@ fn note_damping(out: &mut impl Write, found: &Found) -> io::Result<()> {
         Damping::Steady => return Ok(()),
         Damping::ByEnergy => {
             "with the amplitude, or pick-offs or converter are nonlinear: decay times are those of small waves"
+        }
+        Damping::InTime(0) => {
+            return writeln!(
+                out,
+                "warning: the runs decay at different rates, as at another temperature or pressure, or of another resonator: each has a decay \
+                 of its own, and the resonator's is their mean; the differences are allowed for in all other quantities"
+            );
         }
         Damping::InTime(_) => {
             "with time, or a gain does, or pick-offs are not calibrated: each run has a decay of its own, that of a straight line through the \
@@ -231,7 +259,7 @@ fn note_misfit(out: &mut impl Write, found: &Found) -> io::Result<()> {
     if found.withholds_turning() {
         writeln!(
             out,
-            "the turning by a_A·a_B is not reported: uncalibrated pick-offs have the same effect"
+            "the turning by a_A·a_B is not reported: uncalibrated or nonlinear pick-offs and a gain that drifts have the same effect"
         )?;
     }
     Ok(())

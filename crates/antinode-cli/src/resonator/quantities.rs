@@ -53,6 +53,30 @@ const DAMPING_SPLIT: Kind = kind("damping_split_s", "damping split, 1/s", 1.0);
 const MOST_DAMPED: Kind = kind("most_damped_at_rad", "most damped at, °", DEGREES);
 const FREQUENCY_SPLIT: Kind = kind("frequency_split_hz", "frequency split, Hz", 1.0);
 const HIGHEST: Kind = kind("highest_at_rad", "highest at, °", DEGREES);
+/// Decay time and quality factor of the mode that is damped most, and of the other, if the damping is split.
+const OF_MODES: [[Kind; 2]; 2] = [
+    [
+        kind("most_damped_decay_time_s", "decay time there, s", 1.0),
+        kind("most_damped_quality_factor", "quality factor there", 1.0),
+    ],
+    [
+        kind(
+            "least_damped_decay_time_s",
+            "decay time 45° from there, s",
+            1.0,
+        ),
+        kind(
+            "least_damped_quality_factor",
+            "quality factor 45° from there",
+            1.0,
+        ),
+    ],
+];
+/// Of the mode whose frequency is highest, and of the other, if they are split.
+const OF_BOTH: [Kind; 2] = [
+    kind("highest_frequency_hz", "frequency there, Hz", 1.0),
+    kind("lowest_frequency_hz", "frequency 45° from there, Hz", 1.0),
+];
 
 /// What `--help` says of the quantities.
 pub const HELP: &str = "\
@@ -67,9 +91,15 @@ Quantities of CSV and JSON lines, their units, and those of their deviations:
   frequency_by_energy_hz       Hz, at a_A² + a_B² of one input unit squared
   residual_over_noise          none
   damping_split_s              1/s, like decay_rate_s of the rows; not a time
-  most_damped_at_rad           rad
+  most_damped_at_rad           rad    modulo π/2, from −π/4 to π/4, like that below
+  most_damped_decay_time_s     s      of a pattern there
+  most_damped_quality_factor   none
+  least_damped_decay_time_s    s      of a pattern π/4 from there
+  least_damped_quality_factor  none
   frequency_split_hz           Hz
   highest_at_rad               rad
+  highest_frequency_hz         Hz
+  lowest_frequency_hz          Hz
   turning_by_amplitudes_rad_s  rad/s, at a_A·a_B of one input unit squared
 
 Quantities of one run have its number in `run`, its recording in `file`, and the times of its rows in `from_s` and `to_s`. Residuals \
@@ -134,9 +164,11 @@ pub fn quantities(results: &Results) -> Vec<Quantity> {
     let resonator = found.resonator();
     for (index, &place) in results.listed.iter().enumerate() {
         let run = Some(index);
-        for (kind, value) in of_decay(found.decay_of_run(place), mean_frequency) {
+        let of_run = frequency.means[place];
+        for (kind, value) in of_decay(found.decay_of_run(place), of_run.0) {
             add(run, kind, value);
         }
+        add(run, FREQUENCY, of_run);
         let seconds = results.rows.runs[place].seconds();
         if let Some(drift) = found.decay_drift(place, seconds) {
             add(run, DECAY_DRIFT, drift);
@@ -163,20 +195,31 @@ pub fn quantities(results: &Results) -> Vec<Quantity> {
     for (kind, value) in of_decay(resonator.decay, mean_frequency) {
         add(None, kind, value);
     }
-    let mut add_split = |[split, angle]: [Measured; 2], size, at, unit| {
-        add(None, size, scaled(split, unit));
-        if split.0 > SPLIT_SEEN * split.1 {
-            add(None, at, angle);
+    let [split, angle] = resonator.damping_split;
+    add(None, DAMPING_SPLIT, split);
+    if split.0 > SPLIT_SEEN * split.1 {
+        add(None, MOST_DAMPED, angle);
+        for (kinds, decay) in OF_MODES.into_iter().zip(resonator.decays) {
+            let values = of_decay(decay, mean_frequency).map(|(_, value)| value);
+            for (kind, value) in kinds.into_iter().zip(values) {
+                add(None, kind, value);
+            }
         }
-    };
-    add_split(resonator.damping_split, DAMPING_SPLIT, MOST_DAMPED, 1.0);
-    let in_hertz = 1.0 / TAU;
-    add_split(
-        resonator.frequency_split,
-        FREQUENCY_SPLIT,
-        HIGHEST,
-        in_hertz,
-    );
+    }
+    let [split, angle] = resonator.frequency_split;
+    let split = scaled(split, 1.0 / TAU);
+    add(None, FREQUENCY_SPLIT, split);
+    if split.0 > SPLIT_SEEN * split.1 {
+        add(None, HIGHEST, angle);
+        for (kind, sign) in OF_BOTH.into_iter().zip([0.5, -0.5]) {
+            let (mean, std) = frequency.mean;
+            add(
+                None,
+                kind,
+                (mean + sign * split.0, std.hypot(0.5 * split.1)),
+            );
+        }
+    }
     if let Some(turning) = resonator.turning_by_amplitudes {
         add(None, BY_AMPLITUDES, turning);
     }

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::fs;
 
 use crate::common::ring_downs::{four_seconds, identified, is_one_way, numbers, resonator};
-use crate::common::{RATE, WAVE, run, wav};
+use crate::common::{RATE, Run, WAVE, run, wav};
 
 /// Decay time and quality factor of a decay rate of 0.08 1/s at 5332 Hz.
 const TRUTH: [(&str, f64); 2] = [("decay_time_s", 12.5), ("quality_factor", 209_387.2)];
@@ -86,10 +86,10 @@ fn the_unit_of_every_quantity_is_in_the_help() {
         "--decay-rate 0.08 --angle-rate 0.4 --damping-split 0.012 --frequency-split 0.004",
     );
     let found = numbers(&resonator(here, &rows, "--output csv"));
-    assert_eq!(found.len(), 5 + 8, "{found:?}");
+    assert_eq!(found.len(), 6 + 14, "{found:?}");
     for (_, quantity) in found.keys() {
         let unit = units.get(quantity.as_str()).expect(quantity);
-        let is_time = quantity == "decay_time_s";
+        let is_time = quantity.ends_with("decay_time_s");
         assert_eq!(unit.starts_with("s "), is_time, "{quantity}: {unit}");
     }
     assert!(units["damping_split_s"].starts_with("1/s,"), "{help}");
@@ -114,7 +114,7 @@ fn a_pattern_at_rest_determines_its_decay_alone_and_the_report_says_so() {
         found.err
     );
     let numbers = numbers(&found);
-    assert_eq!(numbers.len(), 6, "{}", found.out);
+    assert_eq!(numbers.len(), 7, "{}", found.out);
     let (value, std) = numbers[&("1".to_owned(), "decay_time_s".to_owned())];
     assert!((value - 12.5).abs() < 4.0 * std.unwrap());
 }
@@ -246,6 +246,82 @@ fn a_table_may_turn_unsteadily() {
 }
 
 #[test]
+fn both_modes_have_their_own_quality_factors_and_frequencies() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let rows = four_seconds(
+        here,
+        "--decay-rate 0.08 --angle-rate 0.4 --damping-split 0.012 --frequency-split 0.004",
+    );
+    let found = numbers(&resonator(here, &rows, "--output csv"));
+    let q = |rate: f64| std::f64::consts::PI * 5332.0 / rate;
+    for (quantity, truth) in [
+        ("most_damped_decay_time_s", 1.0 / 0.086),
+        ("least_damped_decay_time_s", 1.0 / 0.074),
+        ("most_damped_quality_factor", q(0.086)),
+        ("least_damped_quality_factor", q(0.074)),
+        ("highest_frequency_hz", 5332.002),
+        ("lowest_frequency_hz", 5331.998),
+    ] {
+        let (value, std) = found[&(String::new(), quantity.to_owned())];
+        let std = std.unwrap();
+        assert!((value - truth).abs() < 4.0 * std, "{quantity}: {value}");
+        assert!(std < 1e-3 * truth, "{quantity}: {std}");
+    }
+}
+
+#[test]
+fn runs_with_decays_and_frequencies_of_their_own_are_told_apart() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let waves = |frequency: &str| {
+        [("0.1", "0.4", "5332"), ("0.11", "-0.4", frequency)].map(|(decay, turn, frequency)| {
+            format!("--decay-rate {decay} --angle-rate {turn} --frequency {frequency} --damping-split 0.012")
+        })
+    };
+    // Of two temperatures; and of two resonators.
+    for (frequency, is_other) in [("5331.5", false), ("5400", true)] {
+        let rows: String = waves(frequency)
+            .iter()
+            .enumerate()
+            .map(|(i, wave)| {
+                let rows = four_seconds(here, wave);
+                let without_header =
+                    |rows: &str| rows.lines().skip(1).map(|row| format!("{row}\n")).collect();
+                // The second is another recording.
+                let rows = rows.replace("it.wav", &format!("{i}.wav"));
+                if i == 0 { rows } else { without_header(&rows) }
+            })
+            .collect();
+        let found = resonator(here, &rows, "--output csv");
+        assert!(
+            found.err.contains("the runs decay at different rates"),
+            "{}",
+            found.err
+        );
+        assert_eq!(
+            found
+                .err
+                .contains("Hz apart: give the rows of one resonator"),
+            is_other,
+            "{}",
+            found.err
+        );
+        assert!(!found.err.contains("times their noise"), "{}", found.err);
+        let numbers = numbers(&found);
+        let frequency: f64 = frequency.parse().unwrap();
+        for (run, quantity, truth) in [
+            ("1", "frequency_hz", 5332.0),
+            ("2", "frequency_hz", frequency),
+            ("", "damping_split_s", 0.012),
+        ] {
+            let (value, std) = numbers[&(run.to_owned(), quantity.to_owned())];
+            assert!((value - truth).abs() < 4.0 * std.unwrap(), "{}", found.out);
+        }
+    }
+}
+
+#[test]
 fn rows_from_before_the_drive_ended_are_left_out() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
@@ -259,13 +335,21 @@ fn rows_from_before_the_drive_ended_are_left_out() {
     let rows = identified(here, "a.wav b.wav");
     let all = resonator(here, &rows, "--output csv");
     assert!(
-        all.err.contains("still driven in some rows (see --from)"),
+        all.err
+            .contains("left out: 2 runs in which something drives the wave"),
         "{}",
         all.err
     );
+    let decay_time = |found: &Run| numbers(found)[&(String::new(), "decay_time_s".to_owned())];
+    let (time, std) = decay_time(&all);
+    assert!(
+        (time - 1.0 / WAVE.decay_rate).abs() < 4.0 * std.unwrap(),
+        "{}",
+        all.out
+    );
     let found = resonator(here, &rows, "--output csv --from 1 --to 4.9");
     assert_eq!(found.err, "");
-    let (time, std) = numbers(&found)[&(String::new(), "decay_time_s".to_owned())];
+    let (time, std) = decay_time(&found);
     assert!(
         (time - 1.0 / WAVE.decay_rate).abs() < 4.0 * std.unwrap(),
         "{}",

@@ -15,7 +15,8 @@ use serde::Serialize;
 use crate::digits::{decimals, fixed, significant, with_std};
 use crate::failure::Failure;
 use crate::given_rows::GivenRows;
-use crate::options::Corrected;
+use crate::options::{Corrected, Format};
+use crate::result_file::ResultFile;
 use crate::runs::{BEYOND_NOISE, Runs, driven};
 use crate::serialized;
 use pick_offs::PickOffs;
@@ -33,9 +34,11 @@ const MAX_TURN: f64 = 0.1;
 pub struct Calibrate {
     #[command(flatten)]
     pub given: GivenRows,
-    /// How the calibration is printed.
-    #[arg(long, visible_alias = "format", value_enum, default_value_t = Printed::Options, value_name = "FORMAT")]
-    pub output: Printed,
+    /// How the calibration is printed [default: as the name of --out ends, or else options].
+    #[arg(long, visible_alias = "format", value_enum, value_name = "FORMAT")]
+    pub output: Option<Printed>,
+    #[command(flatten)]
+    pub file: ResultFile,
     // The calibration that the rows were identified with. It is last, as what follows would appear under its heading.
     #[command(flatten)]
     pub corrected: Corrected,
@@ -68,6 +71,13 @@ struct Quantity {
 
 /// Finds the calibration and prints it.
 pub fn run(options: &Calibrate) -> Result<(), Failure> {
+    let format = match (options.output, options.file.format()?) {
+        (Some(printed), _) => printed,
+        (None, Format::Table) => Printed::Options,
+        (None, Format::Csv) => Printed::Csv,
+        (None, Format::Jsonl) => Printed::Jsonl,
+    };
+    options.file.check(&options.given.rows)?;
     let corrected = PickOffs::from(&options.corrected);
     let (mut rows, name) = Runs::open(&options.given, MAX_TURN, Flags::REACQUIRED)?;
     let every = moments(&rows.runs, &corrected);
@@ -103,8 +113,9 @@ pub fn run(options: &Calibrate) -> Result<(), Failure> {
             "{look}if the rows were identified with a calibration, give it here too: the printed options replace it"
         );
     }
-    print(&mut io::stdout().lock(), options.output, &quantities)?;
-    Ok(())
+    let mut out = Vec::new();
+    print(&mut out, format, &quantities)?;
+    options.file.write(&out)
 }
 
 /// The quantities of a calibration.

@@ -22,7 +22,7 @@ use crate::failure::Failure;
 use crate::options::Format;
 use crate::progress;
 use crate::ranges::in_order;
-use crate::recording::{BLOCK_PAIRS, OpenOptions, Recording, place};
+use crate::recording::{BLOCK_PAIRS, Columns, OpenOptions, Recording, place};
 use crate::rows::Rows;
 use crate::tell::tell;
 pub use options::Identify;
@@ -181,7 +181,8 @@ fn open(path: &Path, options: &Identify) -> Result<(Recording, f64), Failure> {
         }
     }
     let name = &recording.name;
-    let rate = sample_rate(name, options.rate, recording.opened.sample_rate)?;
+    let own = recording.opened.sample_rate;
+    let rate = sample_rate(name, options.rate, own, options.columns.as_ref())?;
     let rails = options.full_scale;
     let rails = rails.and_then(|rails| recording.rails_warning(rails));
     for warning in rails.iter().chain(&recording.opened.warnings) {
@@ -196,16 +197,29 @@ fn is_pipe(recording: &Recording) -> bool {
 }
 
 /// The rate given by `--rate`, or else the recording's own, if plausible.
-fn sample_rate(name: &str, asked: Option<f64>, own: Option<f64>) -> Result<f64, Failure> {
+fn sample_rate(
+    name: &str,
+    asked: Option<f64>,
+    own: Option<f64>,
+    columns: Option<&Columns>,
+) -> Result<f64, Failure> {
     match (asked, own) {
         (Some(rate), _) => Ok(rate),
         (None, Some(rate)) if (1.0..=1e10).contains(&rate) => Ok(rate),
         (None, Some(rate)) => Err(Failure::Fault(format!(
             "{name}: the recording states an absurd sample rate of {rate} Hz; give the true one as --rate HZ"
         ))),
-        (None, None) => Err(Failure::Fault(format!(
-            "{name}: the recording does not state its sample rate; give it as --rate HZ"
-        ))),
+        (None, None) => {
+            let time = match columns.and_then(Columns::without_time) {
+                Some([c, d]) => format!(
+                    "; or, if a column of text has the time, name it too, as --columns TIME,{c},{d}"
+                ),
+                None => String::new(),
+            };
+            Err(Failure::Fault(format!(
+                "{name}: the recording does not state its sample rate; give it as --rate HZ{time}"
+            )))
+        }
     }
 }
 

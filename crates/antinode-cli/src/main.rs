@@ -26,6 +26,7 @@ mod progress;
 mod ranges;
 mod recording;
 mod resonator;
+mod result_file;
 mod row_file;
 mod rows;
 mod runs;

@@ -28,6 +28,7 @@ use clap::Args;
 use crate::failure::Failure;
 use crate::given_rows::GivenRows;
 use crate::options::Format;
+use crate::result_file::ResultFile;
 use crate::runs::driven::{self, undriven};
 use crate::runs::{BEYOND_NOISE, Run, Runs};
 use crate::serialized;
@@ -63,9 +64,12 @@ fn is_alike(correlation: f64, count: f64) -> bool {
 pub struct Resonator {
     #[command(flatten)]
     pub given: GivenRows,
-    /// How the quantities are printed: a table in degrees, or CSV or JSON lines in radians.
-    #[arg(long, visible_alias = "format", value_enum, default_value_t = Format::Table, value_name = "FORMAT")]
-    pub output: Format,
+    /// How the quantities are printed: a table in degrees, or CSV or JSON lines in radians [default: as the name of --out ends, or else a
+    /// table].
+    #[arg(long, visible_alias = "format", value_enum, value_name = "FORMAT")]
+    pub output: Option<Format>,
+    #[command(flatten)]
+    pub file: ResultFile,
 }
 
 /// What the rows show.
@@ -113,6 +117,8 @@ fn decaying(runs: &[Run]) -> (Option<Found>, [Vec<Run>; 2]) {
 
 /// Finds the resonator and prints it.
 pub fn run(options: &Resonator) -> Result<(), Failure> {
+    let format = options.output.map_or_else(|| options.file.format(), Ok)?;
+    options.file.check(&options.given.rows)?;
     let (mut rows, name) = Runs::open(&options.given, MAX_TURN, BREAKS)?;
     let (found, [runs, driven]) = decaying(&rows.runs);
     rows.runs = runs;
@@ -129,13 +135,14 @@ pub fn run(options: &Resonator) -> Result<(), Failure> {
         found,
     };
     let quantities = quantities(&results);
-    let mut out = io::stdout().lock();
+    let mut out = Vec::new();
     let rows_of = || quantities.iter().map(|one| Row::new(one, &results));
-    match options.output {
+    match format {
         Format::Table => table(&mut out, &name, &results, &quantities)?,
         Format::Csv => serialized::csv(&mut out, rows_of())?,
         Format::Jsonl => serialized::jsonl(&mut out, rows_of())?,
     }
+    options.file.write(&out)?;
     // The result is printed already: standard error may be closed.
     let mut err = io::stderr().lock();
     let _ = driven::warn(&mut err, &driven).and_then(|()| write_notes(&mut err, &results));

@@ -80,7 +80,7 @@ fn write(options: &Simulate, gyro: Gyro, truth: &Truth, beside: &Path) -> Result
     writer.check_room(truth.sample_pairs)?;
     let text = serde_json::to_string_pretty(truth).map_err(io::Error::from)?;
     // Written before the samples, so that a failure shows at once and not after a long recording.
-    let beside = WholeFile::text(beside, &(text + "\n"))?;
+    let beside = WholeFile::of(beside, (text + "\n").as_bytes())?;
     let mut beyond = 0u64;
     // Counted in 64 bits, which a 32-bit processor's `usize` lacks.
     for (_, pair) in (0..truth.sample_pairs).zip(gyro) {

@@ -86,10 +86,10 @@ impl WholeFile {
         Ok((whole, output))
     }
 
-    /// Writes a file of this text, still without its name.
-    pub fn text(path: &Path, text: &str) -> Result<Self, Failure> {
+    /// Writes a file of these bytes, still without its name.
+    pub fn of(path: &Path, bytes: &[u8]) -> Result<Self, Failure> {
         let (whole, mut output) = Self::create(path)?;
-        match output.write_all(text.as_bytes()) {
+        match output.write_all(bytes) {
             Ok(()) => Ok(whole),
             Err(fault) => Err(unwritable(&whole.file, &fault)),
         }

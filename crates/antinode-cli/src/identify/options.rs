@@ -10,6 +10,7 @@ use crate::failure::Failure;
 use crate::options::{Corrected, Format};
 use crate::ranges;
 use crate::recording::{Columns, Kind};
+use crate::result_file::format_of;
 
 /// Periods in a window, at most; the ring of blocks holds two more.
 pub const MAX_PERIODS: u16 = 1022;
@@ -187,16 +188,7 @@ impl Identify {
         if let Some(format) = self.output {
             return Ok(format);
         }
-        let ending = self.out.as_ref().and_then(|out| out.extension());
-        let ending = ending.map(|ending| ending.to_string_lossy().to_lowercase());
-        match ending.as_deref() {
-            Some("csv") => Ok(Format::Csv),
-            Some("jsonl" | "ndjson" | "json") => Ok(Format::Jsonl),
-            None | Some("txt") => Ok(Format::Table),
-            Some(other) => Err(Failure::Usage(format!(
-                "--out: .{other} is not a format of rows; end the name in .csv, .jsonl or .txt, or give --output"
-            ))),
-        }
+        format_of(self.out.as_deref())
     }
 
     /// The core's settings for a recording of this sample rate, full scale and resolution.

@@ -47,6 +47,11 @@ impl FromStr for Columns {
 }
 
 impl Columns {
+    /// S_C and S_D if no time is chosen.
+    pub fn without_time(&self) -> Option<&[String; 2]> {
+        self.time.is_none().then_some(&self.signals)
+    }
+
     /// The numbers of S_C and S_D, from 1; none unless both are numbers, they differ, and no time is chosen.
     pub(super) fn numbers(&self) -> Option<[usize; 2]> {
         let [c, d] = self.signals.each_ref().map(|name| name.parse().ok());

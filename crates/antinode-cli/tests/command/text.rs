@@ -5,7 +5,7 @@ use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use crate::common::{Row, WAVE, rows, run_with, text};
+use crate::common::{Row, WAVE, fault, rows, run_with, text};
 
 /// Runs `identify --output csv`, which must succeed.
 fn good(directory: &Path, arguments: &str, input: &str) -> Vec<Row> {
@@ -39,6 +39,12 @@ fn text_may_come_from_anywhere() {
     same(&good(here, "-", &whole), &expected);
     same(&good(here, "-", body), &expected);
     same(&good(here, "- --columns 2,3 --rate 1e5", body), &expected);
+    fault(
+        here,
+        "- --columns 2,3",
+        body.into(),
+        &["give it as --rate HZ; or,", "--columns TIME,2,3"],
+    );
     // With --columns a stream is text, even if its first line does not show it; the line names one of the columns.
     let odd = format!("at {}\n{body}", "level ".repeat(2));
     same(

@@ -1,0 +1,71 @@
+//! Where a result goes: standard output, or a file that gets its name once it is complete.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use crate::failure::Failure;
+use crate::options::Format;
+use crate::recording::place;
+use crate::whole_file::WholeFile;
+
+/// The file that a result is written to, if any.
+#[derive(Debug, Args)]
+pub struct ResultFile {
+    /// Write to this file instead of standard output, `-`: CSV if it ends in .csv, JSON lines if in .jsonl, unless --output says otherwise.
+    #[arg(short = 'o', long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+}
+
+impl ResultFile {
+    /// The file; `None` for standard output.
+    pub fn file(&self) -> Option<&Path> {
+        let is_standard = |out: &&Path| ["-", "/dev/stdout"].map(Path::new).contains(out);
+        self.out.as_deref().filter(|out| !is_standard(out))
+    }
+
+    /// The format that its name asks for: a table if it has none.
+    pub fn format(&self) -> Result<Format, Failure> {
+        format_of(self.out.as_deref())
+    }
+
+    /// Rejects a file that is one of those to be read, or that cannot be written: reading may take long.
+    pub fn check(&self, rows: &[PathBuf]) -> Result<(), Failure> {
+        let Some(path) = self.file() else {
+            return Ok(());
+        };
+        let there = place(path);
+        let mut rows = rows.iter().map(|rows| place(rows));
+        if there.is_some() && rows.any(|rows| rows == there) {
+            return Err(Failure::Usage(format!(
+                "--out: {} has rows to be read; give the result another name",
+                path.display()
+            )));
+        }
+        WholeFile::create(path).map(drop)
+    }
+
+    /// Writes the result.
+    pub fn write(&self, result: &[u8]) -> Result<(), Failure> {
+        let Some(path) = self.file() else {
+            io::stdout().lock().write_all(result)?;
+            return Ok(());
+        };
+        WholeFile::of(path, result)?.finish()
+    }
+}
+
+/// The format of what is written to a file, by the ending of its name: a table if there is none.
+pub fn format_of(out: Option<&Path>) -> Result<Format, Failure> {
+    let ending = out.and_then(|out| out.extension());
+    let ending = ending.map(|ending| ending.to_string_lossy().to_lowercase());
+    match ending.as_deref() {
+        Some("csv") => Ok(Format::Csv),
+        Some("jsonl" | "ndjson" | "json") => Ok(Format::Jsonl),
+        None | Some("txt") => Ok(Format::Table),
+        Some(other) => Err(Failure::Usage(format!(
+            "--out: .{other} is not a format of rows; end the name in .csv, .jsonl or .txt, or give --output"
+        ))),
+    }
+}

@@ -21,6 +21,7 @@ const PHASE_FLOOR: f32 = 0.02;
 /// goes with it is tested.
 ///
 /// `offset_rates` are the rates a sample at which the offsets moved to the window before, and become those to this one.
+#[inline(never)]
 pub(super) fn flags(
     before: &Record,
     now: &Record,

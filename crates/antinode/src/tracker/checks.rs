@@ -180,6 +180,7 @@ fn is_partial(model: &Model, wave: &Standing) -> bool {
 }
 
 /// True when a pick-off shows a third harmonic beyond its noise and beyond what electronics with its gain may have.
+#[inline(never)]
 fn has_harmonic(
     model: &Model,
     remains: &Remains,

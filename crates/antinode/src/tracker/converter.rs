@@ -96,7 +96,7 @@ const HARMONICS: f32 = 0.01;
 
 /// Flags of the faults that single samples show, in a window of `blocks` with a wave of `step` a sample and a noise variance of `noise`;
 /// `before` is the last clean window.
-#[inline]
+#[inline(always)]
 pub(super) fn sample_flags(
     settings: &Settings,
     blocks: &[Seen],

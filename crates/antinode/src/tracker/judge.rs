@@ -1,16 +1,17 @@
 //! Turns a fit into a record with flags, and keeps what the next windows need of it.
 
 use super::angle::wrap;
+use super::between;
 use super::checks::{self, Levels};
 use super::converter::{self, Coding};
 use super::failures::{Failures, LITTLE};
 use super::followed::Followed;
 use super::record::{Record, Units};
 use super::standing::Standing;
-use super::{Tracker, between};
+use super::tracking::Tracking;
 use crate::estimate::Flags;
 use crate::scalar::greater;
-use crate::window::Fit;
+use crate::window::{Fit, Seen};
 
 /// Flags of a window with which those after it are not compared.
 const BROKEN: Flags = Flags::LOST
@@ -24,11 +25,12 @@ const UNSEEN: Flags = BROKEN.without(Flags::MISFIT).with(Flags::CIRCULAR);
 /// Highest frequency, rad a sample: one of half a turn or more, 3.14 rad, would be stated as a negative one.
 const MAX_RADIANS: f32 = 3.1;
 
-impl<const BLOCKS: usize> Tracker<BLOCKS> {
-    /// Judges a fit and hands its record and flags to `make`; `None` if there is no wave to be tracked.
+impl Tracking {
+    /// Judges a fit of blocks and hands its record and flags to `make`; `None` if there is no wave to be tracked.
     #[inline(always)]
     pub(super) fn judged<R>(
         &mut self,
+        blocks: &[Seen],
         fit: &Fit,
         make: impl FnOnce(&Units, &Record, Flags) -> R,
     ) -> Option<R> {
@@ -45,14 +47,21 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let errors = rounding + coding.expected + f32::MIN_POSITIVE;
         let share = (stated + errors) / (noise + errors);
         let mut wave = Standing::new(model, fit, [noise + errors, share], own, self.end);
-        let flags = self.judge(fit, coding.max, stated, &mut wave)?;
+        let flags = self.judge(blocks, fit, coding.max, stated, &mut wave)?;
         Some(make(&self.units, &wave.record, flags))
     }
 
     /// Tests a window's wave and joins it to those before; `None` if a first window shows no wave. `coding` is the noise variance that the
     /// converter's steps may add, `stated` that for which standard deviations are stated.
     #[inline(always)]
-    fn judge(&mut self, fit: &Fit, coding: f32, stated: f32, wave: &mut Standing) -> Option<Flags> {
+    fn judge(
+        &mut self,
+        blocks: &[Seen],
+        fit: &Fit,
+        coding: f32,
+        stated: f32,
+        wave: &mut Standing,
+    ) -> Option<Flags> {
         let model = self.model.as_ref()?;
         let record = &mut wave.record;
         let (expected, rate, mut is_certain) = match &self.before {
@@ -94,7 +103,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         );
         flags = flags.with(converter::sample_flags(
             &self.settings,
-            self.gathered.blocks(),
+            blocks,
             model.layout.step,
             fit,
             wave,
@@ -151,8 +160,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         let is_faded_from = |before: &Record| record.main.value < LITTLE * before.main.value;
         let is_faded = self.before.as_ref().is_some_and(is_faded_from);
         // A wave at another frequency counts as little of one too: its sums here are small, but its samples are not.
-        let is_elsewhere =
-            is_misfit && converter::are_all_beyond(self.gathered.blocks(), fit, record.main.value);
+        let is_elsewhere = is_misfit && converter::are_all_beyond(blocks, fit, record.main.value);
         let is_little = is_no_wave || is_faded || is_elsewhere;
         if is_faded || checks::is_hidden(wave) || flags.contains(Flags::DEAD_CHANNEL) {
             // A wave or a pick-off that goes is no new level of noise.
@@ -182,6 +190,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
 
     /// True when one pick-off that showed the wave in the last clean window shows none now, while the other does, and there is a fault or a
     /// jump of the angle rate: a pattern that turns on steadily may leave a pick-off silent too.
+    #[inline(always)]
     fn has_fallen_silent(&self, now: &Record, fault: bool) -> bool {
         self.before.as_ref().is_some_and(|before| {
             let [c, d] = [now.is_silent(0), now.is_silent(1)];
@@ -194,6 +203,7 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     }
 
     /// Keeps what the next windows need.
+    #[inline(always)]
     fn remember(&mut self, record: &Record, flags: Flags, between: Flags, offset_rates: [f32; 2]) {
         self.broken = flags.intersects(BROKEN);
         if self.broken {

@@ -148,6 +148,7 @@ impl Record {
 
     /// Predicts the angle of a later window, `now`. Gives that angle, the rate a sample that leads there, and whether the angle is certain
     /// to less than a quarter turn: it may not be over a gap, or if the pattern turns at another rate after it.
+    #[inline(always)]
     pub(crate) fn predict_angle(&self, now: &Self) -> (Angle, f32, bool) {
         let passed = 0.5 * long(now.middle.wrapping_sub(self.angle_middle));
         let is_next =

@@ -134,7 +134,7 @@ impl Trend {
 
     /// Takes the share of a turning pattern out of a window's frequency, by the rate that the angles of the windows before predict. If the
     /// window's own rate contradicts that, it is not done, except for a circular pattern, whose lesser wave is too small to know a rate.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn take_turning_out(
         &mut self,
         wave: &mut Standing,

@@ -21,83 +21,55 @@ pub(crate) struct Covariance {
     pub odd: [Row; SIDE],
 }
 
-/// A symmetric positive matrix, gathered row by row and then factorised as L D Lᵀ in place.
+/// A symmetric positive matrix, gathered row by row.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Normal {
-    /// Lower triangle; after [`Normal::factorise`] the unit L below the diagonal and 1/D on it.
-    entries: [Row; SIDE],
+    /// The upper triangle: (0,0), (0,1), (1,1), (0,2), (1,2), (2,2).
+    entries: [f32; 6],
 }
 
 impl Normal {
-    pub(crate) const ZERO: Self = Self {
-        entries: [[0.0; SIDE]; SIDE],
-    };
+    pub(crate) const ZERO: Self = Self { entries: [0.0; 6] };
 
     /// Adds the square of one design row.
     #[inline(never)]
-    pub(crate) fn add(&mut self, row: &Row) {
-        for (i, (entries, &left)) in self.entries.iter_mut().zip(row).enumerate() {
-            for (entry, &right) in entries.iter_mut().zip(row).take(i + 1) {
-                *entry += left * right;
-            }
-        }
+    pub(crate) fn add(&mut self, [a, b, c]: &Row) {
+        let e = &mut self.entries;
+        e[0] += a * a;
+        e[1] += a * b;
+        e[2] += b * b;
+        e[3] += a * c;
+        e[4] += b * c;
+        e[5] += c * c;
     }
 
-    /// The inverse; a direction that the data do not see (pivot below 10⁻⁵ of its diagonal) is held at zero.
-    pub(crate) fn inverse(mut self) -> [Row; SIDE] {
-        self.factorise();
-        let mut inverse = [[0.0; SIDE]; SIDE];
-        for (i, row) in inverse.iter_mut().enumerate() {
-            row[i] = 1.0;
-            *row = self.solve(*row);
-        }
-        inverse
-    }
-
-    #[expect(
-        clippy::needless_range_loop,
-        reason = "the indices are those of the textbook"
-    )]
-    fn factorise(&mut self) {
-        let a = &mut self.entries;
-        for j in 0..SIDE {
-            // Row j holds L·D up to here; dividing by D turns it into L and takes its square off the pivot.
-            let mut pivot = a[j][j];
-            for k in 0..j {
-                let scaled = a[j][k];
-                a[j][k] = scaled * a[k][k];
-                pivot -= scaled * a[j][k];
-            }
-            a[j][j] = if pivot > 1e-5 * a[j][j] {
+    /// The inverse, by L D Lᵀ; a direction that the data do not see (pivot below 10⁻⁵ of its diagonal) is held at zero.
+    #[inline(never)]
+    pub(crate) fn inverse(&self) -> [Row; SIDE] {
+        let [d0, a01, a11, a02, a12, a22] = self.entries;
+        let per = |pivot: f32, whole: f32| {
+            if pivot > 1e-5 * whole {
                 1.0 / pivot
             } else {
                 0.0
-            };
-            for i in j + 1..SIDE {
-                for k in 0..j {
-                    a[i][j] -= a[i][k] * a[j][k];
-                }
             }
-        }
-    }
-
-    /// Solves for one right-hand side.
-    fn solve(&self, mut rhs: Row) -> Row {
-        let l = &self.entries;
-        for i in 1..SIDE {
-            for k in 0..i {
-                rhs[i] -= l[i][k] * rhs[k];
-            }
-        }
-        for i in 0..SIDE {
-            rhs[i] *= l[i][i];
-        }
-        for i in (0..SIDE - 1).rev() {
-            for k in i + 1..SIDE {
-                rhs[i] -= l[k][i] * rhs[k];
-            }
-        }
-        rhs
+        };
+        let p0 = per(d0, d0);
+        let (l1, l2) = (a01 * p0, a02 * p0);
+        let p1 = per(a11 - l1 * a01, a11);
+        let b12 = a12 - l1 * a02;
+        let l21 = b12 * p1;
+        let p2 = per(a22 - l2 * a02 - l21 * b12, a22);
+        // L⁻¹ has −l1, l1·l21 − l2 and −l21 below its diagonal.
+        let m = l1 * l21 - l2;
+        let (mp, lp) = (m * p2, l21 * p2);
+        let i01 = -l1 * p1 - m * lp;
+        let i11 = p1 + l21 * lp;
+        [
+            [p0 + l1 * l1 * p1 + m * mp, i01, mp],
+            [i01, i11, -lp],
+            [mp, -lp, p2],
+        ]
     }
 }
 

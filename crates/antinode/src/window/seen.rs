@@ -32,7 +32,7 @@ pub(crate) struct Extremes {
 }
 
 impl Seen {
-    pub(super) const EMPTY: Self = Self {
+    pub(crate) const EMPTY: Self = Self {
         whitened: [Whitened {
             mean: 0.0,
             even: 0.0,

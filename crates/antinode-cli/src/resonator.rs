@@ -5,6 +5,7 @@ mod changing;
 mod chords;
 mod curve;
 mod drift;
+mod each;
 mod fit;
 mod found;
 mod frequency;
@@ -30,7 +31,7 @@ use crate::given_rows::GivenRows;
 use crate::options::Format;
 use crate::result_file::ResultFile;
 use crate::runs::driven::{self, undriven};
-use crate::runs::{BEYOND_NOISE, Run, Runs};
+use crate::runs::{BEYOND_NOISE, MIN_ROWS, Run, Runs};
 use crate::serialized;
 use fit::fit;
 use found::Found;
@@ -43,6 +44,8 @@ use quantities::{HELP, Row, quantities, table};
 const MAX_TURN: f64 = PI / 8.0;
 /// Flags of rows that end a run: the wave was excited anew, or samples are missing.
 const BREAKS: Flags = Flags::REACQUIRED.with(Flags::PHASE_JUMP).with(Flags::STEP);
+/// Deviations below which a split has no angle.
+const SPLIT_SEEN: f64 = 3.0;
 /// Deviations below which a decay is not significant.
 const DECAY_SEEN: f64 = 3.0;
 /// Relative change of an amplitude per radian that the pattern turns, which is no drive: a gain ratio that is 30 % off causes it.
@@ -60,7 +63,7 @@ fn is_alike(correlation: f64, count: f64) -> bool {
 
 /// `antinode resonator`.
 #[derive(Debug, Args)]
-#[command(after_long_help = HELP, allow_negative_numbers = true)]
+#[command(after_long_help = format!("{HELP}\n\n{}", each::HELP), allow_negative_numbers = true)]
 pub struct Resonator {
     #[command(flatten)]
     pub given: GivenRows,
@@ -70,6 +73,9 @@ pub struct Resonator {
     pub output: Option<Format>,
     #[command(flatten)]
     pub file: ResultFile,
+    /// Find a resonator for each recording, as for the gyros of a batch, instead of one for all.
+    #[arg(long)]
+    pub each: bool,
 }
 
 /// What the rows show.
@@ -119,7 +125,33 @@ fn decaying(runs: &[Run]) -> (Option<Found>, [Vec<Run>; 2]) {
 pub fn run(options: &Resonator) -> Result<(), Failure> {
     let format = options.output.map_or_else(|| options.file.format(), Ok)?;
     options.file.check(&options.given.rows)?;
-    let (mut rows, name) = Runs::open(&options.given, MAX_TURN, BREAKS)?;
+    let (rows, name) = Runs::open(&options.given, MAX_TURN, BREAKS)?;
+    if options.each {
+        return each::run(rows, format, &options.file);
+    }
+    let (results, driven) = results(rows, &name)?;
+    let quantities = quantities(&results);
+    let mut out = Vec::new();
+    let rows_of = || quantities.iter().map(|one| Row::new(one, &results));
+    match format {
+        Format::Table => table(&mut out, &name, &results, &quantities)?,
+        Format::Csv => serialized::csv(&mut out, rows_of())?,
+        Format::Jsonl => serialized::jsonl(&mut out, rows_of())?,
+    }
+    options.file.write(&out)?;
+    // The result is printed already: standard error may be closed.
+    let mut err = io::stderr().lock();
+    let _ = driven::warn(&mut err, &driven).and_then(|()| write_notes(&mut err, &results));
+    Ok(())
+}
+
+/// What the rows show, and the runs left out because something drives the wave.
+fn results(mut rows: Runs, name: &str) -> Result<(Results, Vec<Run>), Failure> {
+    if rows.runs.is_empty() {
+        return Err(Failure::Fault(format!(
+            "{name}: no run of {MIN_ROWS} clean rows; see the rows' flags, shorten the windows, or record longer"
+        )));
+    }
     let (found, [runs, driven]) = decaying(&rows.runs);
     rows.runs = runs;
     let found = found.ok_or_else(|| {
@@ -134,17 +166,5 @@ pub fn run(options: &Resonator) -> Result<(), Failure> {
         rows,
         found,
     };
-    let quantities = quantities(&results);
-    let mut out = Vec::new();
-    let rows_of = || quantities.iter().map(|one| Row::new(one, &results));
-    match format {
-        Format::Table => table(&mut out, &name, &results, &quantities)?,
-        Format::Csv => serialized::csv(&mut out, rows_of())?,
-        Format::Jsonl => serialized::jsonl(&mut out, rows_of())?,
-    }
-    options.file.write(&out)?;
-    // The result is printed already: standard error may be closed.
-    let mut err = io::stderr().lock();
-    let _ = driven::warn(&mut err, &driven).and_then(|()| write_notes(&mut err, &results));
-    Ok(())
+    Ok((results, driven))
 }

@@ -37,6 +37,8 @@ pub struct Runs {
     pub runs: Vec<Run>,
     /// Rows read within the times asked for, including flagged ones.
     pub rows: usize,
+    /// Names of the recordings that the rows are of, those without a run included.
+    recordings: Vec<String>,
     /// The first and the last time in the rows, s, and the times asked for.
     span: Option<[f64; 2]>,
     asked: Range<f64>,
@@ -137,6 +139,18 @@ impl Runs {
         })
     }
 
+    /// The runs of each recording, which may be none, by its name, without the notes on all of them.
+    pub fn by_recording(self) -> Vec<(String, Self)> {
+        let each = self.recordings.into_iter();
+        let mut each: Vec<_> = each.map(|name| (name, Self::default())).collect();
+        for run in self.runs {
+            if let Some((_, of)) = each.iter_mut().find(|(name, _)| *name == run.file) {
+                of.runs.push(run);
+            }
+        }
+        each
+    }
+
     /// Number of rows in runs.
     pub fn used(&self) -> usize {
         self.runs.iter().map(|run| run.rows.len()).sum()
@@ -216,6 +230,9 @@ impl Runs {
         }
         for mut recording in recordings {
             recording.end();
+            if !self.recordings.contains(&recording.file) {
+                self.recordings.push(recording.file.clone());
+            }
             self.overlapping += recording.overlapping;
             self.backward += recording.backward;
             self.runs.append(&mut recording.runs);

@@ -5,12 +5,9 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use super::Results;
 use super::found::Measured;
+use super::{Results, SPLIT_SEEN};
 use crate::digits::{fixed, significant, significant_or_known, with_small_std};
-
-/// Deviations below which a split has no angle.
-const SPLIT_SEEN: f64 = 3.0;
 
 /// A kind of quantity: its name in CSV and JSON lines, its label in the table, and the factor from the unit of the former to the latter's.
 struct Kind {

@@ -28,6 +28,7 @@ mod residual;
 mod resonator;
 mod resonator_damping;
 mod resonator_driven;
+mod resonator_each;
 mod resonator_frequency;
 mod resonator_residual;
 mod resonator_rows;

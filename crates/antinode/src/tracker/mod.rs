@@ -116,9 +116,9 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     }
 
     /// Number of the search whose blocks it takes, for [`Front::search_if_wanted`](crate::Front::search_if_wanted): 0 at first. It counts
-    /// up, and wraps, when a new period must be searched for: when the first window showed no wave, or two in a row were [`Flags::LOST`] or
-    /// did not settle, or eight in a row held little of the wave compared with all else, or had samples in every block that lie beyond the
-    /// wave by more than its amplitude. Overlapping windows count by the blocks they move on.
+    /// up, and wraps, when a new period must be searched for: when the first window showed no wave, or two in a row were
+    /// [`LOST`](crate::Flags::LOST) or did not settle, or eight in a row held little of the wave compared with all else, or had samples in
+    /// every block that lie beyond the wave by more than its amplitude. Overlapping windows count by the blocks they move on.
     ///
     /// Hand it on after every block, as a first window without a wave gives no estimate, and also after [`configure`](Self::configure) and
     /// [`search`](Self::search).
@@ -139,8 +139,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         self.tracking.found
     }
 
-    /// Changes the calibration: the next block starts a new first window, which is flagged [`Flags::REACQUIRED`] and continues the angle.
-    /// The front goes on as it is.
+    /// Changes the calibration: the next block starts a new first window, which is flagged [`REACQUIRED`](crate::Flags::REACQUIRED) and
+    /// continues the angle. The front goes on as it is.
     ///
     /// # Errors
     ///
@@ -152,12 +152,13 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         })
     }
 
-    /// Changes all settings but the start angle: the next block starts a new first window, which is flagged [`Flags::REACQUIRED`] and
-    /// continues the angle. [`configure`](Self::configure) begins with the start angle instead, and must come first: otherwise the angle
-    /// begins at 0.
+    /// Changes all settings but the start angle: the next block starts a new first window, which is flagged
+    /// [`REACQUIRED`](crate::Flags::REACQUIRED) and continues the angle. [`configure`](Self::configure) begins with the start angle
+    /// instead, and must come first: otherwise the angle begins at 0.
     ///
-    /// The front needs the same `sample_rate`, `frequency`, `periods`, `hop`, `hum`, `coloured`, `detection` and `watch`; if it is configured
-    /// anew, call [`search`](Self::search) here too, [in the right order](crate#on-a-microcontroller), so that blocks from before are left out.
+    /// The front needs the same `sample_rate`, `frequency`, `periods`, `hop`, `hum`, `coloured`, `detection` and `watch`; if it is
+    /// configured anew, call [`search`](Self::search) here too, [in the right order](crate#on-a-microcontroller), so that blocks from
+    /// before are left out.
     ///
     /// # Errors
     ///

@@ -17,11 +17,13 @@ pub mod motion;
 mod normal;
 mod notes;
 mod quantities;
+mod rests;
 mod start;
 mod stretches;
 
 use std::f64::consts::PI;
 use std::io;
+use std::path::{self, Path, PathBuf};
 
 use antinode::Flags;
 use clap::Args;
@@ -29,16 +31,18 @@ use clap::Args;
 use crate::failure::Failure;
 use crate::given_rows::GivenRows;
 use crate::options::Format;
-use crate::result_file::ResultFile;
+use crate::result_file::{self, ResultFile};
 use crate::runs::driven::{self, undriven};
 use crate::runs::{BEYOND_NOISE, MIN_ROWS, Run, Runs};
 use crate::serialized;
+use crate::whole_file::WholeFile;
 use fit::fit;
 use found::Found;
 use frequency::{Frequency, frequency};
 use informing::informing;
 use notes::write_notes;
 use quantities::{HELP, Row, quantities, table};
+use rests::rests;
 
 /// Turn of the pattern from row to row, at most, rad: half of that up to which the angle is unambiguous.
 const MAX_TURN: f64 = PI / 8.0;
@@ -76,6 +80,31 @@ pub struct Resonator {
     /// Find a resonator for each recording, as for the gyros of a batch, instead of one for all.
     #[arg(long)]
     pub each: bool,
+    /// Write what the resonator's motion leaves of each row to this CSV file: its time, run, and how far a_A, a_B and θ lie from the motion,
+    /// in their standard deviations. It shows where and when the rows are not explained.
+    #[arg(long, value_name = "FILE", conflicts_with = "each")]
+    pub residual: Option<PathBuf>,
+}
+
+impl Resonator {
+    /// Rejects files to be written that are one, or are read, or cannot be written.
+    fn check_files(&self) -> Result<(), Failure> {
+        self.file.check(&self.given.rows)?;
+        let Some(residual) = &self.residual else {
+            return Ok(());
+        };
+        let full = |path: &Path| path::absolute(path).ok();
+        if self
+            .file
+            .file()
+            .is_some_and(|out| full(out) == full(residual))
+        {
+            return Err(Failure::Usage(
+                "--residual and --out are the same file; give one of them another name".to_owned(),
+            ));
+        }
+        result_file::check("--residual", residual, &self.given.rows)
+    }
 }
 
 /// What the rows show.
@@ -124,7 +153,7 @@ fn decaying(runs: &[Run]) -> (Option<Found>, [Vec<Run>; 2]) {
 /// Finds the resonator and prints it.
 pub fn run(options: &Resonator) -> Result<(), Failure> {
     let format = options.output.map_or_else(|| options.file.format(), Ok)?;
-    options.file.check(&options.given.rows)?;
+    options.check_files()?;
     let (rows, name) = Runs::open(&options.given, MAX_TURN, BREAKS)?;
     if options.each {
         return each::run(rows, format, &options.file);
@@ -139,6 +168,11 @@ pub fn run(options: &Resonator) -> Result<(), Failure> {
         Format::Jsonl => serialized::jsonl(&mut out, rows_of())?,
     }
     options.file.write(&out)?;
+    if let Some(path) = &options.residual {
+        let mut left = Vec::new();
+        serialized::csv(&mut left, rests(&results).iter())?;
+        WholeFile::of(path, &left)?.finish()?;
+    }
     // The result is printed already: standard error may be closed.
     let mut err = io::stderr().lock();
     let _ = driven::warn(&mut err, &driven).and_then(|()| write_notes(&mut err, &results));

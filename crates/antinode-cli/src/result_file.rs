@@ -32,18 +32,8 @@ impl ResultFile {
 
     /// Rejects a file that is one of those to be read, or that cannot be written: reading may take long.
     pub fn check(&self, rows: &[PathBuf]) -> Result<(), Failure> {
-        let Some(path) = self.file() else {
-            return Ok(());
-        };
-        let there = place(path);
-        let mut rows = rows.iter().map(|rows| place(rows));
-        if there.is_some() && rows.any(|rows| rows == there) {
-            return Err(Failure::Usage(format!(
-                "--out: {} has rows to be read; give the result another name",
-                path.display()
-            )));
-        }
-        WholeFile::create(path).map(drop)
+        self.file()
+            .map_or(Ok(()), |path| check("--out", path, rows))
     }
 
     /// Writes the result.
@@ -54,6 +44,19 @@ impl ResultFile {
         };
         WholeFile::of(path, result)?.finish()
     }
+}
+
+/// Rejects a file to be written, which an option names, if it is one of those to be read or cannot be written.
+pub fn check(option: &str, path: &Path, rows: &[PathBuf]) -> Result<(), Failure> {
+    let there = place(path);
+    let mut rows = rows.iter().map(|rows| place(rows));
+    if there.is_some() && rows.any(|rows| rows == there) {
+        return Err(Failure::Usage(format!(
+            "{option}: {} has rows to be read; give the result another name",
+            path.display()
+        )));
+    }
+    WholeFile::create(path).map(drop)
 }
 
 /// The format of what is written to a file, by the ending of its name: a table if there is none.

@@ -236,8 +236,8 @@ fn note_misfit(out: &mut impl Write, found: &Found) -> io::Result<()> {
     if found.residual > BEYOND_NOISE {
         writeln!(
             out,
-            "warning: rows differ from the resonator's motion by {:.1} times their noise: {why}; the deviations above include this factor, \
-             but the values may be further off",
+            "warning: rows differ from the resonator's motion by {:.1} times their noise, which --residual FILE shows row by row: {why}; the \
+             deviations above include this factor, but the values may be further off",
             found.residual
         )?;
     } else if found.is_below_noise() {

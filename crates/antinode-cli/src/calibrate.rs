@@ -71,11 +71,13 @@ struct Quantity {
 
 /// Finds the calibration and prints it.
 pub fn run(options: &Calibrate) -> Result<(), Failure> {
-    let format = match (options.output, options.file.format()?) {
-        (Some(printed), _) => printed,
-        (None, Format::Table) => Printed::Options,
-        (None, Format::Csv) => Printed::Csv,
-        (None, Format::Jsonl) => Printed::Jsonl,
+    let format = match options.output {
+        Some(printed) => printed,
+        None => match options.file.format()? {
+            Format::Table => Printed::Options,
+            Format::Csv => Printed::Csv,
+            Format::Jsonl => Printed::Jsonl,
+        },
     };
     options.file.check(&options.given.rows)?;
     let corrected = PickOffs::from(&options.corrected);

@@ -23,7 +23,7 @@ mod stretches;
 
 use std::f64::consts::PI;
 use std::io;
-use std::path::{self, Path, PathBuf};
+use std::path::PathBuf;
 
 use antinode::Flags;
 use clap::Args;
@@ -93,16 +93,7 @@ impl Resonator {
         let Some(residual) = &self.residual else {
             return Ok(());
         };
-        let full = |path: &Path| path::absolute(path).ok();
-        if self
-            .file
-            .file()
-            .is_some_and(|out| full(out) == full(residual))
-        {
-            return Err(Failure::Usage(
-                "--residual and --out are the same file; give one of them another name".to_owned(),
-            ));
-        }
+        result_file::check_residual(residual, self.file.file())?;
         result_file::check("--residual", residual, &self.given.rows)
     }
 }

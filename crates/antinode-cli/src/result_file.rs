@@ -1,7 +1,7 @@
 //! Where a result goes: standard output, or a file that gets its name once it is complete.
 
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::{self, Path, PathBuf};
 
 use clap::Args;
 
@@ -21,8 +21,7 @@ pub struct ResultFile {
 impl ResultFile {
     /// The file; `None` for standard output.
     pub fn file(&self) -> Option<&Path> {
-        let is_standard = |out: &&Path| ["-", "/dev/stdout"].map(Path::new).contains(out);
-        self.out.as_deref().filter(|out| !is_standard(out))
+        file_of(self.out.as_deref())
     }
 
     /// The format that its name asks for: a table if it has none.
@@ -44,6 +43,23 @@ impl ResultFile {
         };
         WholeFile::of(path, result)?.finish()
     }
+}
+
+/// The file that is asked for; `None` for standard output.
+pub fn file_of(out: Option<&Path>) -> Option<&Path> {
+    let is_standard = |out: &&Path| ["-", "/dev/stdout"].map(Path::new).contains(out);
+    out.filter(|out| !is_standard(out))
+}
+
+/// Rejects a file for the residual that is also the one of the result.
+pub fn check_residual(residual: &Path, out: Option<&Path>) -> Result<(), Failure> {
+    let full = |path: &Path| path::absolute(path).ok();
+    if out.is_some_and(|out| full(out) == full(residual)) {
+        return Err(Failure::Usage(
+            "--residual and --out are the same file; give one of them another name".to_owned(),
+        ));
+    }
+    Ok(())
 }
 
 /// Rejects a file to be written, which an option names, if it is one of those to be read or cannot be written.

@@ -1,6 +1,6 @@
 //! The command line of `antinode identify`.
 
-use std::path::{self, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 use antinode::{Detection, Settings};
 use clap::{Args, ValueEnum, value_parser};
@@ -10,7 +10,7 @@ use crate::failure::Failure;
 use crate::options::{Corrected, Format};
 use crate::ranges;
 use crate::recording::{Columns, Kind};
-use crate::result_file::format_of;
+use crate::result_file::{check_residual, file_of, format_of};
 
 /// Periods in a window, at most; the ring of blocks holds two more.
 pub const MAX_PERIODS: u16 = 1022;
@@ -153,8 +153,7 @@ pub enum Detector {
 impl Identify {
     /// The file that rows are written to; `None` for standard output.
     pub fn file(&self) -> Option<&Path> {
-        let is_standard = |out: &&Path| ["-", "/dev/stdout"].map(Path::new).contains(out);
-        self.out.as_deref().filter(|out| !is_standard(out))
+        file_of(self.out.as_deref())
     }
 
     /// Rejects `--channels` without `--raw`, as nothing else is read by it.
@@ -172,15 +171,12 @@ impl Identify {
         let Some(residual) = &self.residual else {
             return Ok(());
         };
-        let full = |path: &Path| path::absolute(path).ok();
-        let told = if self.files.len() > 1 {
-            "--residual is for one recording; identify each by itself"
-        } else if self.file().is_some_and(|rows| full(rows) == full(residual)) {
-            "--residual and --out are the same file; give one of them another name"
-        } else {
-            return Ok(());
-        };
-        Err(Failure::Usage(told.to_owned()))
+        if self.files.len() > 1 {
+            return Err(Failure::Usage(
+                "--residual is for one recording; identify each by itself".to_owned(),
+            ));
+        }
+        check_residual(residual, self.file())
     }
 
     /// The format of the rows: `--output`, or else what the ending of `--out` names, or else a table.

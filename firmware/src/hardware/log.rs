@@ -23,7 +23,7 @@ pub fn started(note: &Note) {
 /// Warns if the supply was low at the start, or if nothing resets the chip between 1.7 V and the 2.7 V that its clock needs.
 pub fn supply(flash: &FLASH, is_high: bool) {
     if !is_high {
-        defmt::warn!("the supply is below 3 V: nothing tells if it falls below 2.7 V");
+        defmt::warn!("the supply was below 3 V at the start: see firmware/docs/wiring.md");
     }
     // OPTCR.BOR_LEV: 0 means level 3.
     if flash.optcr().read().bor_lev().bits() != 0 {

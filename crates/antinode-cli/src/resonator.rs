@@ -48,8 +48,6 @@ use rests::rests;
 const MAX_TURN: f64 = PI / 8.0;
 /// Flags of rows that end a run: the wave was excited anew, or samples are missing.
 const BREAKS: Flags = Flags::REACQUIRED.with(Flags::PHASE_JUMP).with(Flags::STEP);
-/// Deviations below which a split has no angle.
-const SPLIT_SEEN: f64 = 3.0;
 /// Deviations below which a decay is not significant.
 const DECAY_SEEN: f64 = 3.0;
 /// Relative change of an amplitude per radian that the pattern turns, which is no drive: a gain ratio that is 30 % off causes it.

@@ -56,8 +56,8 @@ pub struct Settings {
     /// Sample rate in Hz, 10⁻³ to 10¹².
     pub sample_rate: f64,
     /// Length of a window in periods: from 2 to two fewer than the ring's blocks, and at most 60 000; 10 unless changed. A window is a
-    /// whole number of blocks, so its length may be up to a tenth off, or a ninth with `hum`, and has at least 6 sample pairs. A block has up to two periods, or a
-    /// fifth of the window if that is less.
+    /// whole number of blocks, so its length may be up to a tenth off, or a ninth with `hum`, and has at least 6 sample pairs. A block has
+    /// up to two periods, or a fifth of the window if that is less.
     #[cfg_attr(feature = "serde", serde(default = "crate::serial::periods"))]
     pub periods: u16,
     /// Blocks from the start of one window to the start of the next, 1 or more. With a hop, blocks are half as long, about a period, or a

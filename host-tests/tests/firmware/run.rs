@@ -11,6 +11,8 @@ use crate::emulator::{folder, images};
 use crate::recordings;
 use crate::told::estimates;
 
+const SCRIPT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../firmware/run");
+
 /// A file for this test only.
 fn file(name: &str, bytes: &[u8]) -> PathBuf {
     let path = folder().join(name);
@@ -20,7 +22,7 @@ fn file(name: &str, bytes: &[u8]) -> PathBuf {
 
 /// Runs a recording with the output to `out`; gives the exit code and the messages.
 fn replay(recording: &Path, out: File) -> (Option<i32>, String) {
-    let output = Command::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../firmware/run"))
+    let output = Command::new(SCRIPT)
         .arg(images().join("replay"))
         .arg(recording)
         .stdin(Stdio::null())
@@ -134,7 +136,7 @@ fn a_board_may_have_another_chip() {
             "run --chip STM32F407VGTx stm32f405\n",
         ),
     ] {
-        let output = Command::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../firmware/run"))
+        let output = Command::new(SCRIPT)
             .arg("stm32f405")
             .env("PATH", &path)
             .env_remove("SERIAL")

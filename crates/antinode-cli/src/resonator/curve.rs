@@ -45,8 +45,9 @@ pub fn drift(seconds: f64) -> f64 {
     12.0 / (seconds * seconds)
 }
 
-/// A row whose wave is larger by e^p.
-pub fn undamped(row: &Row, p: f64) -> Row {
+/// A row whose wave is larger by e^p, where p is the sum of its curves, each by a factor.
+pub fn undamped(row: &Row, curves: &[f64; CURVES], factors: &[f64; CURVES]) -> Row {
+    let p: f64 = curves.iter().zip(factors).map(|(at, by)| at * by).sum();
     let by = p.exp();
     let [of_main, of_quadrature, of_angle] = row.deviations;
     Row {

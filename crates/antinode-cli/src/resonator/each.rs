@@ -1,13 +1,15 @@
 //! One resonator for each recording: a line for each, as for the gyros of a batch.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 use std::io::{self, Write};
 
-use serde::Serialize;
+use serde::ser::SerializeStruct;
+use serde::{Serialize, Serializer};
 
 use super::found::Measured;
-use super::{Results, SPLIT_SEEN, results};
-use crate::digits::{fixed, significant, significant_or_known, with_small_std};
+use super::quantities::{Row, quantities};
+use super::{Results, results};
+use crate::digits::{fixed, significant, with_small_std};
 use crate::failure::Failure;
 use crate::options::Format;
 use crate::result_file::ResultFile;
@@ -21,32 +23,66 @@ of its resonator by the names above, each with its deviation, as `decay_time_s` 
 number of `warnings`. Where the rows do not determine the splits, these are empty, and decay time and quality factor are those of the \
 longest run. Of a recording that no resonator explains only the file and the warning are given.";
 
+/// The columns of each quantity: its name among the quantities, and that of its deviation.
+const COLUMNS: [[&str; 2]; 9] = [
+    ["frequency_hz", "frequency_std_hz"],
+    DECAY_TIME,
+    QUALITY_FACTOR,
+    ["damping_split_s", "damping_split_std_s"],
+    ["most_damped_at_rad", "most_damped_at_std_rad"],
+    [
+        "most_damped_quality_factor",
+        "most_damped_quality_factor_std",
+    ],
+    [
+        "least_damped_quality_factor",
+        "least_damped_quality_factor_std",
+    ],
+    ["frequency_split_hz", "frequency_split_std_hz"],
+    ["highest_at_rad", "highest_at_std_rad"],
+];
+/// Those that the longest run has if the resonator is not determined.
+const DECAY_TIME: [&str; 2] = ["decay_time_s", "decay_time_std_s"];
+const QUALITY_FACTOR: [&str; 2] = ["quality_factor", "quality_factor_std"];
+
+const DEGREES: f64 = 180.0 / PI;
+/// What the table shows: heads, and the quantities with the factors from their units.
+const SHOWN: [(&str, &str, f64); 7] = [
+    ("frequency, Hz", "frequency_hz", 1.0),
+    ("decay time, s", "decay_time_s", 1.0),
+    ("quality factor", "quality_factor", 1.0),
+    ("damping split, 1/s", "damping_split_s", 1.0),
+    ("at, °", "most_damped_at_rad", DEGREES),
+    ("frequency split, Hz", "frequency_split_hz", 1.0),
+    ("at, °", "highest_at_rad", DEGREES),
+];
+
 /// A recording's resonator.
-#[derive(Serialize, Default)]
+#[derive(Default)]
 struct Line {
     file: String,
     rows: usize,
     runs: usize,
-    frequency_hz: Option<f64>,
-    frequency_std_hz: Option<f64>,
-    decay_time_s: Option<f64>,
-    decay_time_std_s: Option<f64>,
-    quality_factor: Option<f64>,
-    quality_factor_std: Option<f64>,
-    damping_split_s: Option<f64>,
-    damping_split_std_s: Option<f64>,
-    most_damped_at_rad: Option<f64>,
-    most_damped_at_std_rad: Option<f64>,
-    most_damped_quality_factor: Option<f64>,
-    most_damped_quality_factor_std: Option<f64>,
-    least_damped_quality_factor: Option<f64>,
-    least_damped_quality_factor_std: Option<f64>,
-    frequency_split_hz: Option<f64>,
-    frequency_split_std_hz: Option<f64>,
-    highest_at_rad: Option<f64>,
-    highest_at_std_rad: Option<f64>,
+    /// The value and the deviation in each of [`COLUMNS`], if the rows determine them.
+    quantities: [Option<Measured>; COLUMNS.len()],
     residual_over_noise: Option<f64>,
     warnings: usize,
+}
+
+impl Serialize for Line {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut line = serializer.serialize_struct("Line", 2 * COLUMNS.len() + 5)?;
+        line.serialize_field("file", &self.file)?;
+        line.serialize_field("rows", &self.rows)?;
+        line.serialize_field("runs", &self.runs)?;
+        for ([value, std], measured) in COLUMNS.iter().zip(&self.quantities) {
+            line.serialize_field(value, &measured.map(|(value, _)| value))?;
+            line.serialize_field(std, &measured.map(|(_, std)| std))?;
+        }
+        line.serialize_field("residual_over_noise", &self.residual_over_noise)?;
+        line.serialize_field("warnings", &self.warnings)?;
+        line.end()
+    }
 }
 
 /// Prints a line for each recording, and the warnings for each. An error if no resonator explains the rows of one, with all others printed.
@@ -100,127 +136,67 @@ pub fn run(rows: Runs, format: Format, file: &ResultFile) -> Result<(), Failure>
 
 /// The line of a recording that a resonator explains.
 fn line(file: String, results: &Results) -> Line {
-    let Results {
-        found, frequency, ..
-    } = results;
-    let (mean, _) = frequency.mean;
-    let resonator = found.resonator();
-    let longest = || {
-        let runs = results.rows.runs.iter().enumerate();
-        let longest = runs.max_by_key(|(_, run)| run.rows.len());
-        found.decay_of_run(longest.map_or(0, |(run, _)| run))
+    let quantities = quantities(results);
+    let rows: Vec<_> = quantities
+        .iter()
+        .map(|one| Row::new(one, results))
+        .collect();
+    let of = |run: Option<usize>, name: &str| {
+        let row = rows
+            .iter()
+            .find(|row| row.run == run && row.quantity == name)?;
+        Some((row.value, row.std?))
     };
-    let decay = resonator
-        .as_ref()
-        .map_or_else(longest, |resonator| resonator.decay);
-    let time = |(rate, std): Measured| (1.0 / rate, std / (rate * rate));
-    let quality = |decay: Measured| {
-        let (time, std) = time(decay);
-        (PI * mean * time, PI * mean * std)
-    };
-    let is_seen = |[(split, std), _]: &[Measured; 2]| *split > SPLIT_SEEN * std;
-    let damping = resonator.as_ref().map(|found| found.damping_split);
-    let tuning = resonator.as_ref().map(|found| found.frequency_split);
-    let seen = damping.filter(is_seen);
-    let of_modes = resonator
-        .as_ref()
-        .filter(|_| seen.is_some())
-        .map(|resonator| resonator.decays.map(quality));
-    let [frequency_hz, frequency_std_hz] = rounded(Some(frequency.mean));
-    let [decay_time_s, decay_time_std_s] = rounded(Some(time(decay)));
-    let [quality_factor, quality_factor_std] = rounded(Some(quality(decay)));
-    let [damping_split_s, damping_split_std_s] = rounded(damping.map(|[split, _]| split));
-    let [most_damped_at_rad, most_damped_at_std_rad] = rounded(seen.map(|[_, at]| at));
-    let [most_damped_quality_factor, most_damped_quality_factor_std] =
-        rounded(of_modes.map(|[most, _]| most));
-    let [least_damped_quality_factor, least_damped_quality_factor_std] =
-        rounded(of_modes.map(|[_, least]| least));
-    let in_hertz = |(split, std): Measured| (split / TAU, std / TAU);
-    let [frequency_split_hz, frequency_split_std_hz] =
-        rounded(tuning.map(|[split, _]| in_hertz(split)));
-    let [highest_at_rad, highest_at_std_rad] = rounded(tuning.filter(is_seen).map(|[_, at]| at));
+    let runs = results.listed().enumerate();
+    let longest = runs.max_by_key(|(_, run)| run.rows.len());
+    let longest = longest.map(|(run, _)| run + 1);
+    let is_of_run = |column: [&str; 2]| [DECAY_TIME, QUALITY_FACTOR].contains(&column);
     Line {
         file,
         rows: results.rows.used(),
         runs: results.rows.runs.len(),
-        frequency_hz,
-        frequency_std_hz,
-        decay_time_s,
-        decay_time_std_s,
-        quality_factor,
-        quality_factor_std,
-        damping_split_s,
-        damping_split_std_s,
-        most_damped_at_rad,
-        most_damped_at_std_rad,
-        most_damped_quality_factor,
-        most_damped_quality_factor_std,
-        least_damped_quality_factor,
-        least_damped_quality_factor_std,
-        frequency_split_hz,
-        frequency_split_std_hz,
-        highest_at_rad,
-        highest_at_std_rad,
-        residual_over_noise: Some(significant(found.residual, 6)),
+        quantities: COLUMNS.map(|column| {
+            let [name, _] = column;
+            of(None, name).or_else(|| of(longest, name).filter(|_| is_of_run(column)))
+        }),
+        residual_over_noise: Some(significant(results.found.residual, 6)),
         warnings: 0,
     }
 }
 
-/// A value and its deviation without digits that mean nothing.
-fn rounded(measured: Option<Measured>) -> [Option<f64>; 2] {
-    let digits = |(value, std)| [significant_or_known(value, 12, std), significant(std, 6)];
-    measured
-        .map(digits)
-        .map_or([None; 2], |both| both.map(Some))
-}
-
 /// Prints the lines in aligned columns, with angles in degrees.
 fn table(out: &mut impl Write, lines: &[Line]) -> io::Result<()> {
-    let heads = [
-        "recording",
-        "frequency, Hz",
-        "decay time, s",
-        "quality factor",
-        "damping split, 1/s",
-        "at, °",
-        "frequency split, Hz",
-        "at, °",
-        "residual",
-    ];
-    let measured = |value: Option<f64>, std: Option<f64>, units: f64| match (value, std) {
-        (Some(value), Some(std)) => with_small_std(value * units, std * units).trim().to_owned(),
-        _ => "–".to_owned(),
+    let none = || "–".to_owned();
+    let measured = |line: &Line, name: &str, units: f64| {
+        let mut columns = COLUMNS.iter().zip(&line.quantities);
+        let found = columns.find(|([value, _], _)| *value == name);
+        let (_, measured) = found?;
+        let (value, std) = (*measured)?;
+        Some(with_small_std(value * units, std * units).trim().to_owned())
     };
-    let degrees = 180.0 / PI;
     let cells = lines.iter().map(|line| {
-        [
-            line.file.clone(),
-            measured(line.frequency_hz, line.frequency_std_hz, 1.0),
-            measured(line.decay_time_s, line.decay_time_std_s, 1.0),
-            measured(line.quality_factor, line.quality_factor_std, 1.0),
-            measured(line.damping_split_s, line.damping_split_std_s, 1.0),
-            measured(
-                line.most_damped_at_rad,
-                line.most_damped_at_std_rad,
-                degrees,
-            ),
-            measured(line.frequency_split_hz, line.frequency_split_std_hz, 1.0),
-            measured(line.highest_at_rad, line.highest_at_std_rad, degrees),
-            line.residual_over_noise
-                .map_or("–".to_owned(), |residual| fixed(2, residual)),
-        ]
+        let mut cells = vec![line.file.clone()];
+        let shown = SHOWN.iter();
+        cells.extend(
+            shown.map(|(_, name, units)| measured(line, name, *units).unwrap_or_else(none)),
+        );
+        let residual = line.residual_over_noise;
+        cells.push(residual.map_or_else(none, |residual| fixed(2, residual)));
+        cells
     });
-    let cells: Vec<_> = std::iter::once(heads.map(str::to_owned))
-        .chain(cells)
+    let heads = SHOWN.iter().map(|(head, ..)| *head);
+    let heads = ["recording"].into_iter().chain(heads).chain(["residual"]);
+    let heads = heads.map(str::to_owned).collect();
+    let cells: Vec<Vec<String>> = std::iter::once(heads).chain(cells).collect();
+    let widths: Vec<_> = (0..cells[0].len())
+        .map(|column| {
+            let widths = cells.iter().map(|line| line[column].chars().count());
+            widths.max().unwrap_or(0)
+        })
         .collect();
-    let width = |column: usize| {
-        let widths = cells.iter().map(|line| line[column].chars().count());
-        widths.max().unwrap_or(0)
-    };
-    let widths: [usize; 9] = std::array::from_fn(width);
     for line in &cells {
         let mut text = String::new();
-        for (cell, width) in line.iter().zip(widths) {
+        for (cell, width) in line.iter().zip(&widths) {
             text += &format!("{cell:<width$}  ");
         }
         writeln!(out, "{}", text.trim_end())?;

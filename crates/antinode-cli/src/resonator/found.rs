@@ -173,9 +173,8 @@ impl Found {
         self.model.is_shared().then(|| Resonator {
             decay: self.decay([0.0; 2]),
             decays: [1.0, -1.0].map(|sign| {
-                let [cosine, sine] = [0, 1].map(|i| self.values[damping + i]);
-                let size = cosine.hypot(sine).max(f64::MIN_POSITIVE);
-                self.decay([cosine, sine].map(|part| sign * part / size))
+                let (_, direction) = self.direction(damping);
+                self.decay(direction.map(|part| sign * part))
             }),
             damping_split: self.split(damping),
             frequency_split: self.split(frequency),
@@ -311,16 +310,21 @@ impl Found {
         self.sum(&terms)
     }
 
-    /// The size of a split, whose cosine and sine components are at `at` and after it, and its angle.
-    fn split(&self, at: usize) -> [Measured; 2] {
+    /// The size of a split, whose cosine and sine components are at `at` and after it, and both over that.
+    fn direction(&self, at: usize) -> (f64, [f64; 2]) {
         let (c, s) = (self.values[at], self.values[at + 1]);
         let size = c.hypot(s).max(f64::MIN_POSITIVE);
-        let (cosine, sine) = (c / size, s / size);
+        (size, [c / size, s / size])
+    }
+
+    /// The size of a split and its angle, as [`direction`](Self::direction).
+    fn split(&self, at: usize) -> [Measured; 2] {
+        let (size, [cosine, sine]) = self.direction(at);
         let turned = 0.25 / size;
         [
             self.measured(size, &[(at, cosine), (at + 1, sine)]),
             self.measured(
-                0.25 * s.atan2(c),
+                0.25 * sine.atan2(cosine),
                 &[(at, -turned * sine), (at + 1, turned * cosine)],
             ),
         ]

@@ -57,8 +57,7 @@ pub fn frequency(rows: &Runs, found: &Found) -> Frequency {
     });
     let runs: Vec<Vec<Point>> = runs.collect();
     let all = || runs.iter().flatten();
-    let weights: f64 = all().map(|point| point.weight).sum();
-    let mean = all().map(|point| point.weight * point.excess).sum::<f64>() / weights;
+    let (mean, weights) = weighted_mean(all());
     let (squares, neighbours) = residuals(all(), mean);
     let count = all().count() as f64;
     let widened = widened(squares / (count - 1.0), are_weighted);
@@ -96,14 +95,16 @@ pub fn frequency(rows: &Runs, found: &Found) -> Frequency {
     }
 }
 
+/// The weighted mean of points, Hz, and the sum of their weights.
+fn weighted_mean<'a>(points: impl Iterator<Item = &'a Point> + Clone) -> (f64, f64) {
+    let weights: f64 = points.clone().map(|point| point.weight).sum();
+    let sum: f64 = points.map(|point| point.weight * point.excess).sum();
+    (sum / weights, weights)
+}
+
 /// The mean of a run's points, Hz, and its deviation, which is wider if they scatter by more than theirs.
 fn mean_of_run(run: &[Point], are_weighted: bool) -> Measured {
-    let weights: f64 = run.iter().map(|point| point.weight).sum();
-    let mean = run
-        .iter()
-        .map(|point| point.weight * point.excess)
-        .sum::<f64>()
-        / weights;
+    let (mean, weights) = weighted_mean(run.iter());
     let (squares, _) = residuals(run.iter(), mean);
     let scatter = squares / (run.len() as f64 - 1.0).max(1.0);
     (mean, (widened(scatter, are_weighted) / weights).sqrt())

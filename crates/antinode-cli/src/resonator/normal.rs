@@ -74,8 +74,7 @@ impl Normal {
             last = row;
             extra += beyond;
             of_extra += derivatives;
-            let p: f64 = curve.iter().zip(&of_curves).map(|(at, by)| at * by).sum();
-            let row = undamped(row, p);
+            let row = undamped(row, &curve, &of_curves);
             // The averaging by windows changes the derivatives by too little to matter.
             let (rests, derivatives) = motion.residuals(&row);
             let larger = [row.main - rests[0], row.quadrature - rests[1], -rests[2]];

@@ -5,9 +5,12 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
+use super::Results;
 use super::found::Measured;
-use super::{Results, SPLIT_SEEN};
 use crate::digits::{fixed, significant, significant_or_known, with_small_std};
+
+/// Deviations below which a split has no angle.
+const SPLIT_SEEN: f64 = 3.0;
 
 /// A kind of quantity: its name in CSV and JSON lines, its label in the table, and the factor from the unit of the former to the latter's.
 struct Kind {
@@ -116,10 +119,10 @@ pub struct Quantity {
 #[derive(Serialize)]
 pub struct Row<'a> {
     /// Number of the run, from 1.
-    run: Option<usize>,
-    quantity: &'static str,
-    value: f64,
-    std: Option<f64>,
+    pub run: Option<usize>,
+    pub quantity: &'static str,
+    pub value: f64,
+    pub std: Option<f64>,
     /// The run's recording, and the times of its first row and its last.
     file: Option<&'a str>,
     from_s: Option<f64>,

@@ -34,18 +34,17 @@ pub fn rests(results: &Results) -> Vec<Rest<'_>> {
     for (index, run) in rows.runs.iter().enumerate() {
         let terms = model.terms(index, run);
         let parameters = Model::parameters(&terms, &found.values);
-        let by: [f64; CURVES] = std::array::from_fn(|i| parameters[PARAMETERS + i]);
+        let of_curves: [f64; CURVES] = std::array::from_fn(|i| parameters[PARAMETERS + i]);
         let mut motion = model.motion(run, &parameters);
         let mut last = &run.rows[0];
         let number = listed.iter().position(|&listed| listed == index);
         for (row, curve) in run.rows.iter().zip(curves(run)) {
             model.advance(&mut motion, last, row);
             last = row;
-            let p: f64 = curve.iter().zip(&by).map(|(at, by)| at * by).sum();
-            let larger = undamped(row, p);
-            let (rests, _) = motion.residuals(&larger);
+            let row = undamped(row, &curve, &of_curves);
+            let (rests, _) = motion.residuals(&row);
             let [main, quadrature, angle] =
-                std::array::from_fn(|i| significant(rests[i] / larger.deviations[i], 6));
+                std::array::from_fn(|i| significant(rests[i] / row.deviations[i], 6));
             list.push(Rest {
                 time_s: row.time,
                 run: number.map(|number| number + 1),

@@ -33,6 +33,7 @@ mod resonator_frequency;
 mod resonator_residual;
 mod resonator_rows;
 mod resonator_splits;
+mod result_file;
 mod rows_digits;
 mod rows_file;
 mod rows_read;

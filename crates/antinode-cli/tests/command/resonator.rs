@@ -246,82 +246,6 @@ fn a_table_may_turn_unsteadily() {
 }
 
 #[test]
-fn both_modes_have_their_own_quality_factors_and_frequencies() {
-    let directory = tempfile::tempdir().unwrap();
-    let here = directory.path();
-    let rows = four_seconds(
-        here,
-        "--decay-rate 0.08 --angle-rate 0.4 --damping-split 0.012 --frequency-split 0.004",
-    );
-    let found = numbers(&resonator(here, &rows, "--output csv"));
-    let q = |rate: f64| std::f64::consts::PI * 5332.0 / rate;
-    for (quantity, truth) in [
-        ("most_damped_decay_time_s", 1.0 / 0.086),
-        ("least_damped_decay_time_s", 1.0 / 0.074),
-        ("most_damped_quality_factor", q(0.086)),
-        ("least_damped_quality_factor", q(0.074)),
-        ("highest_frequency_hz", 5332.002),
-        ("lowest_frequency_hz", 5331.998),
-    ] {
-        let (value, std) = found[&(String::new(), quantity.to_owned())];
-        let std = std.unwrap();
-        assert!((value - truth).abs() < 4.0 * std, "{quantity}: {value}");
-        assert!(std < 1e-3 * truth, "{quantity}: {std}");
-    }
-}
-
-#[test]
-fn runs_with_decays_and_frequencies_of_their_own_are_told_apart() {
-    let directory = tempfile::tempdir().unwrap();
-    let here = directory.path();
-    let waves = |frequency: &str| {
-        [("0.1", "0.4", "5332"), ("0.11", "-0.4", frequency)].map(|(decay, turn, frequency)| {
-            format!("--decay-rate {decay} --angle-rate {turn} --frequency {frequency} --damping-split 0.012")
-        })
-    };
-    // Of two temperatures; and of two resonators.
-    for (frequency, is_other) in [("5331.5", false), ("5400", true)] {
-        let rows: String = waves(frequency)
-            .iter()
-            .enumerate()
-            .map(|(i, wave)| {
-                let rows = four_seconds(here, wave);
-                let without_header =
-                    |rows: &str| rows.lines().skip(1).map(|row| format!("{row}\n")).collect();
-                // The second is another recording.
-                let rows = rows.replace("it.wav", &format!("{i}.wav"));
-                if i == 0 { rows } else { without_header(&rows) }
-            })
-            .collect();
-        let found = resonator(here, &rows, "--output csv");
-        assert!(
-            found.err.contains("the runs decay at different rates"),
-            "{}",
-            found.err
-        );
-        assert_eq!(
-            found
-                .err
-                .contains("Hz apart: give the rows of one resonator"),
-            is_other,
-            "{}",
-            found.err
-        );
-        assert!(!found.err.contains("times their noise"), "{}", found.err);
-        let numbers = numbers(&found);
-        let frequency: f64 = frequency.parse().unwrap();
-        for (run, quantity, truth) in [
-            ("1", "frequency_hz", 5332.0),
-            ("2", "frequency_hz", frequency),
-            ("", "damping_split_s", 0.012),
-        ] {
-            let (value, std) = numbers[&(run.to_owned(), quantity.to_owned())];
-            assert!((value - truth).abs() < 4.0 * std.unwrap(), "{}", found.out);
-        }
-    }
-}
-
-#[test]
 fn rows_from_before_the_drive_ended_are_left_out() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
@@ -425,41 +349,5 @@ fn rows_that_a_spreadsheet_saved_with_decimal_commas_are_the_same() {
             (saved.code, plain(&saved.out), plain(&saved.err)),
             (own.code, own.out, own.err)
         );
-    }
-}
-
-#[test]
-fn the_result_goes_to_a_file_in_the_format_of_its_name() {
-    let directory = tempfile::tempdir().unwrap();
-    let here = directory.path();
-    let rows = four_seconds(here, "--decay-rate 0.08 --angle-rate 0.4");
-    fs::write(here.join("rows.csv"), rows).unwrap();
-    for command in ["resonator", "calibrate"] {
-        let written = |name: &str, option: &str| {
-            let found = run(here, &format!("{command} rows.csv -o {name} {option}"));
-            assert_eq!((found.code, found.out.as_str()), (0, ""), "{}", found.err);
-            fs::read_to_string(here.join(name)).unwrap()
-        };
-        for (name, option) in [("it.csv", "--output csv"), ("it.jsonl", "--output jsonl")] {
-            let printed = run(here, &format!("{command} rows.csv {option}")).out;
-            assert!(!printed.is_empty());
-            assert_eq!(written(name, ""), printed, "{command} {name}");
-            // With a format the name may end as it likes.
-            assert_eq!(written("it.dat", option), printed, "{command} {option}");
-        }
-        // The rows are not overwritten, and nothing is read in vain.
-        for (name, told) in [
-            ("rows.csv", "has rows to be read"),
-            ("./rows.csv", "has rows to be read"),
-            ("it.tsv", "end the name in .csv"),
-            ("none/it.csv", "there is no directory"),
-        ] {
-            let found = run(here, &format!("{command} rows.csv -o {name}"));
-            assert!(
-                found.code > 0 && found.err.contains(told),
-                "{name}: {}",
-                found.err
-            );
-        }
     }
 }

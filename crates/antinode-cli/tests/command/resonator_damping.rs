@@ -1,7 +1,7 @@
 //! `antinode resonator`: damping that changes while the wave rings down is found, and told.
 
 use crate::common::ring_downs::{
-    damped, four_seconds, identified, of_resonator, of_run, record, resonator,
+    damped, four_seconds, identified, numbers, of_resonator, of_run, record, resonator,
 };
 
 #[test]
@@ -98,6 +98,57 @@ fn splits_that_only_one_pattern_shows_are_told_of() {
                 "{}",
                 found.err
             );
+        }
+    }
+}
+
+#[test]
+fn runs_with_decays_and_frequencies_of_their_own_are_told_apart() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let waves = |frequency: &str| {
+        [("0.1", "0.4", "5332"), ("0.11", "-0.4", frequency)].map(|(decay, turn, frequency)| {
+            format!("--decay-rate {decay} --angle-rate {turn} --frequency {frequency} --damping-split 0.012")
+        })
+    };
+    // Of two temperatures; and of two resonators.
+    for (frequency, is_other) in [("5331.5", false), ("5400", true)] {
+        let rows: String = waves(frequency)
+            .iter()
+            .enumerate()
+            .map(|(i, wave)| {
+                let rows = four_seconds(here, wave);
+                let without_header =
+                    |rows: &str| rows.lines().skip(1).map(|row| format!("{row}\n")).collect();
+                // The second is another recording.
+                let rows = rows.replace("it.wav", &format!("{i}.wav"));
+                if i == 0 { rows } else { without_header(&rows) }
+            })
+            .collect();
+        let found = resonator(here, &rows, "--output csv");
+        assert!(
+            found.err.contains("the runs decay at different rates"),
+            "{}",
+            found.err
+        );
+        assert_eq!(
+            found
+                .err
+                .contains("Hz apart: give the rows of one resonator"),
+            is_other,
+            "{}",
+            found.err
+        );
+        assert!(!found.err.contains("times their noise"), "{}", found.err);
+        let numbers = numbers(&found);
+        let frequency: f64 = frequency.parse().unwrap();
+        for (run, quantity, truth) in [
+            ("1", "frequency_hz", 5332.0),
+            ("2", "frequency_hz", frequency),
+            ("", "damping_split_s", 0.012),
+        ] {
+            let (value, std) = numbers[&(run.to_owned(), quantity.to_owned())];
+            assert!((value - truth).abs() < 4.0 * std.unwrap(), "{}", found.out);
         }
     }
 }

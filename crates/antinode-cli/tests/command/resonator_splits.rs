@@ -240,3 +240,28 @@ fn one_pattern_that_rocks_a_little_determines_its_decay() {
         found.out
     );
 }
+
+#[test]
+fn both_modes_have_their_own_quality_factors_and_frequencies() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let rows = four_seconds(
+        here,
+        "--decay-rate 0.08 --angle-rate 0.4 --damping-split 0.012 --frequency-split 0.004",
+    );
+    let found = numbers(&resonator(here, &rows, "--output csv"));
+    let q = |rate: f64| std::f64::consts::PI * 5332.0 / rate;
+    for (quantity, truth) in [
+        ("most_damped_decay_time_s", 1.0 / 0.086),
+        ("least_damped_decay_time_s", 1.0 / 0.074),
+        ("most_damped_quality_factor", q(0.086)),
+        ("least_damped_quality_factor", q(0.074)),
+        ("highest_frequency_hz", 5332.002),
+        ("lowest_frequency_hz", 5331.998),
+    ] {
+        let (value, std) = found[&(String::new(), quantity.to_owned())];
+        let std = std.unwrap();
+        assert!((value - truth).abs() < 4.0 * std, "{quantity}: {value}");
+        assert!(std < 1e-3 * truth, "{quantity}: {std}");
+    }
+}

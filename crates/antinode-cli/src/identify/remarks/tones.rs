@@ -29,7 +29,8 @@ const MAX_HARMONIC: u32 = 9;
 const SAME_LINES: f64 = 1.5;
 /// Periods of the wave in one of hum, at least, for `--hum` to remove it: 13 blocks of two periods.
 const HUM_PERIODS: f64 = 26.0;
-/// Beats with the wave, and with its third harmonic, that a window holds if a tone does no harm, and its fewest periods for `--coloured`, with a hop or without.
+/// Beats with the wave, and with its third harmonic, that a window holds if a tone does no harm, and its fewest periods for `--coloured`,
+/// with a hop or without.
 const BEATS: f64 = 3.2;
 const THIRD_BEATS: f64 = 1.1;
 const MIN_PERIODS: f64 = 10.0;

@@ -10,11 +10,14 @@ use super::time::{Meaning, TimeAxis, are_paired, roundest, standstill};
 use super::{OpenOptions, Opened, Source, Stream, first_of};
 use rows::{Row, Rows};
 
-/// Lines read ahead to find the sample rate from times that are rounded by printing.
+/// Lines read ahead if there is a time column, to find the sample rate from times that are rounded by printing.
 const HEAD_LINES: u64 = 1 << 16;
 
 /// Lines read ahead if there is no time column: enough to tell whether they hold numbers.
 const FEW_LINES: u64 = 16;
+
+/// Lines read ahead if there is one, on a live stream of a known rate.
+const LIVE_LINES: u64 = 1 << 10;
 
 /// What is wrong if each time stands in two lines.
 const PAIRED: &str = "each time stands in two lines; if these are a minimum and a maximum (peak detect, envelope), record or export single \
@@ -25,7 +28,6 @@ pub(super) fn open(stream: Stream, options: &OpenOptions, live: bool) -> Result<
     let mut source = Delimited {
         rows: Rows::open(stream, options.columns.as_ref())?,
         start: 0.0,
-        axis: None,
         gaps: Gaps::default(),
         left_out: 0,
         live,
@@ -33,12 +35,19 @@ pub(super) fn open(stream: Stream, options: &OpenOptions, live: bool) -> Result<
         ahead: Vec::new().into_iter(),
         fault: None,
     };
-    source.read_ahead();
+    let is_rate_known = live && options.rate.is_some();
+    source.read_ahead(if source.rows.header.places[0].is_none() {
+        FEW_LINES
+    } else if is_rate_known {
+        LIVE_LINES
+    } else {
+        HEAD_LINES
+    })?;
     if source.ahead.len() == 0 {
         return Err(source.fault.take().unwrap_or_else(Fault::no_pairs));
     }
     let (sample_rate, start) = (source.rate(), source.start());
-    let axis = source.axis.as_ref();
+    let axis = source.rows.axis.as_ref();
     let meaning = match (source.rows.header.sequence, sample_rate) {
         (Some(_), Some(own)) => Some(Meaning::of_rate(own, options.rate)),
         _ => axis.map(|axis| axis.meaning(source.rows.printed, options.rate)),
@@ -69,7 +78,6 @@ pub(super) struct Delimited {
     rows: Rows,
     /// The first number in the time column, or 0 if there is none.
     start: f64,
-    axis: Option<TimeAxis>,
     pub gaps: Gaps,
     /// The lines left out since the last pair.
     left_out: u64,
@@ -84,58 +92,60 @@ pub(super) struct Delimited {
 
 impl Delimited {
     /// Reads as many lines as it takes to find the sample rate, and checks their times.
-    fn read_ahead(&mut self) {
-        let is_timed = self.rows.header.places[0].is_some();
-        let head = if is_timed { HEAD_LINES } else { FEW_LINES };
-        let (mut pairs, mut times, mut places) = (Vec::new(), Vec::new(), Vec::new());
+    fn read_ahead(&mut self, head: u64) -> Result<(), Fault> {
+        let times = match self.rows.header.places[0] {
+            Some(_) => self.rows.look_ahead(head as usize)?,
+            None => Vec::new(),
+        };
+        let standing = if are_paired(&times) {
+            Some((0, PAIRED.to_owned()))
+        } else if self.rows.axis.is_none() {
+            standstill(&times, self.rows.printed)
+        } else {
+            None
+        };
+        let start = self.rows.axis.as_ref().map(TimeAxis::start);
+        self.start = start.or(times.first().copied()).unwrap_or(0.0);
+        let (mut pairs, mut broken) = (Vec::new(), None);
         while self.rows.read < head && !self.rows.begin_garbled() && self.fault.is_none() {
             match self.rows.next() {
                 Ok(Some(Row::LeftOut)) => self.left_out += 1,
                 Ok(Some(Row::Pair(time, pair))) => {
-                    times.extend(time);
-                    places.push((self.rows.lines.number(), std::mem::take(&mut self.left_out)));
+                    let before = pairs.len() as u64;
                     pairs.push(pair);
+                    if broken.is_some() {
+                        continue;
+                    }
+                    let fault = match (&standing, time) {
+                        (Some((at, fault)), _) if *at as u64 == before => {
+                            let line = self.rows.lines.number();
+                            Err(self.rows.header.time_fault(line, fault))
+                        }
+                        (_, Some(time)) => self.check(time),
+                        _ => Ok(()),
+                    };
+                    broken = fault.err().map(|fault| (before, fault));
                 }
                 Ok(None) => break,
                 Err(fault) => self.fault = Some(fault),
             }
         }
-        let mut broken = self.rows.mostly_garbled();
-        self.axis = TimeAxis::of(&times, self.rows.printed);
-        self.start = times.first().copied().unwrap_or(0.0);
-        let without_rate = if are_paired(&times) {
-            Some((0, PAIRED.to_owned()))
-        } else if self.axis.is_none() {
-            standstill(&times, self.rows.printed)
-        } else {
-            None
-        };
-        let uneven = match without_rate {
-            Some((pair, fault)) => {
-                let fault = self.rows.header.time_fault(places[pair].0, &fault);
-                Some((pair as u64, fault))
-            }
-            None => (1..times.len()).find_map(|pair| {
-                let (line, left_out) = places[pair];
-                let fault = self.check(pair as u64, line, times[pair], left_out).err()?;
-                Some((pair as u64, fault))
-            }),
-        };
-        if let Some((pair, fault)) = uneven
-            && broken.as_ref().is_none_or(|&(first, _)| pair < first)
-        {
-            broken = Some((pair, fault));
-        }
-        if let Some((pair, fault)) = broken {
+        let garbled = self.rows.mostly_garbled();
+        let first = broken
+            .into_iter()
+            .chain(garbled)
+            .min_by_key(|&(pair, _)| pair);
+        if let Some((pair, fault)) = first {
             pairs.truncate(pair as usize);
             self.fault = Some(fault);
         }
         self.ahead = pairs.into_iter();
+        Ok(())
     }
 
     /// The sample rate, Hz, by the times or else by the header.
     fn rate(&self) -> Option<f64> {
-        let by_times = self.axis.as_ref().map(TimeAxis::rate);
+        let by_times = self.rows.axis.as_ref().map(TimeAxis::rate);
         match self.rows.header.sequence {
             Some(sequence) => Some(roundest(by_times.unwrap_or(1.0) / sequence.step, 0.0)),
             None => by_times,
@@ -145,19 +155,21 @@ impl Delimited {
     /// The first sample's time, s.
     fn start(&self) -> f64 {
         match self.rows.header.sequence {
-            Some(sequence) if self.axis.is_some() || !sequence.is_counted => {
+            Some(sequence) if self.rows.axis.is_some() || !sequence.is_counted => {
                 sequence.seconds(self.start)
             }
             _ => self.start,
         }
     }
 
-    /// Checks the time of a line, and records a gap before it. `before`: the pairs read before the line; `left_out`: the lines left out
-    /// just before it.
-    fn check(&mut self, before: u64, line: u64, time: f64, left_out: u64) -> Result<(), Fault> {
-        let Some(axis) = &mut self.axis else {
+    /// Checks the time of the pair last read, and records a gap before it.
+    fn check(&mut self, time: f64) -> Result<(), Fault> {
+        let left_out = std::mem::take(&mut self.left_out);
+        let before = self.rows.pairs - 1;
+        let Some(axis) = self.rows.axis.as_mut().filter(|_| before > 0) else {
             return Ok(());
         };
+        let line = self.rows.lines.number();
         let last = axis.last();
         let lost = axis.check(time, self.rows.printed);
         let lost = lost.map_err(|fault| self.rows.header.time_fault(line, &fault))?;
@@ -186,7 +198,7 @@ impl Delimited {
                  count from the first sample; if it is seconds, omit --rate"
                     .to_owned()
             }
-            Meaning::OtherRate { own, asked } if self.axis.is_none() => format!(
+            Meaning::OtherRate { own, asked } if self.rows.axis.is_none() => format!(
                 "the sample rate is {own} Hz by its settings and {asked} Hz by --rate, which takes precedence; \
                  omit --rate if the settings are right"
             ),
@@ -208,13 +220,7 @@ impl Delimited {
                 break;
             };
             if let Row::Pair(Some(time), _) = row {
-                let left_out = std::mem::take(&mut self.left_out);
-                self.check(
-                    self.rows.pairs - 1,
-                    self.rows.lines.number(),
-                    time,
-                    left_out,
-                )?;
+                self.check(time)?;
             }
             if let Some((_, fault)) = self.rows.mostly_garbled() {
                 return Err(fault);
@@ -261,7 +267,7 @@ impl Delimited {
 
     /// A warning about the samples delivered that could not be given before.
     pub fn late_warning(&self) -> Option<String> {
-        self.axis.as_ref()?.late_warning(self.used)
+        self.rows.axis.as_ref()?.late_warning(self.used)
     }
 
     /// The first sample that is not a finite number, with its place.

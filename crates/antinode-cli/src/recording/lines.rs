@@ -1,6 +1,6 @@
 //! The lines of a text recording, cut into fields.
 
-use std::io::{BufRead, BufReader, Chain, Cursor, Read};
+use std::io::{self, BufRead, BufReader, Read};
 
 use super::Stream;
 use super::error::Fault;
@@ -20,8 +20,10 @@ pub(super) struct Beginning {
 
 /// Reads lines that are neither blank nor comments.
 pub(super) struct Lines {
-    /// The lines read ahead, and those behind them.
-    stream: Chain<Cursor<Vec<u8>>, BufReader<Stream>>,
+    /// Whole lines read ahead, of which those up to `passed` are done with, and what is behind them.
+    ahead: Vec<u8>,
+    passed: usize,
+    rest: BufReader<Stream>,
     /// The line last read, without its end.
     line: Vec<u8>,
     pub separator: u8,
@@ -65,7 +67,9 @@ impl Lines {
         };
         let lines = Self {
             separator: text::separator(&beginning.first),
-            stream: Cursor::new(begun).chain(stream),
+            ahead: begun,
+            passed: 0,
+            rest: stream,
             line: Vec::new(),
             is_quoted,
             number: line - 1 + beginning.start.lines as u64,
@@ -80,45 +84,103 @@ impl Lines {
 
     /// True when no whole line is left of what has come.
     pub fn is_drained(&self) -> bool {
-        let (begun, rest) = self.stream.get_ref();
-        let is_begun = begun.position() < begun.get_ref().len() as u64;
-        !is_begun && !rest.buffer().contains(&b'\n')
+        self.passed == self.ahead.len() && !self.rest.buffer().contains(&b'\n')
+    }
+
+    /// Reads lines ahead until there are `lines` of any kind; fewer at the end, or at one that is too long.
+    pub fn look_ahead(&mut self, lines: usize) -> io::Result<()> {
+        let ahead = self.ahead[self.passed..].split(|&byte| byte == b'\n');
+        // Behind the last end of line there is one part more, which is empty.
+        if let Some(more @ 1..) = (lines + 1).checked_sub(ahead.take(lines + 1).count()) {
+            self.ahead.drain(..self.passed);
+            self.passed = 0;
+            let mut next = text::next_lines(&mut self.rest, more)?;
+            if self.is_quoted {
+                quoted::separate(&mut next);
+            }
+            self.ahead.append(&mut next);
+        }
+        Ok(())
+    }
+
+    /// The lines read ahead that are neither blank nor comments.
+    pub fn ahead(&self) -> impl Iterator<Item = Line<'_>> {
+        let texts = self.ahead[self.passed..].split(|&byte| byte == b'\n');
+        let lines = texts.map(|text| Line::new(text, self.separator));
+        lines.filter(|line| !line.is_skipped())
     }
 
     /// Goes to the next line; false at the end.
     pub fn advance(&mut self) -> Result<bool, Fault> {
         loop {
             self.line.clear();
-            let mut line = self.stream.by_ref().take(MAX_LINE as u64);
-            let read = line.read_until(b'\n', &mut self.line)?;
+            let read = if self.passed < self.ahead.len() {
+                let rest = &self.ahead[self.passed..];
+                let end = rest.iter().position(|&byte| byte == b'\n');
+                self.line
+                    .extend_from_slice(&rest[..end.map_or(rest.len(), |end| end + 1)]);
+                self.passed += self.line.len();
+                self.line.len()
+            } else {
+                let mut line = self.rest.by_ref().take(MAX_LINE as u64);
+                line.read_until(b'\n', &mut self.line)?
+            };
             if read == 0 {
                 return Ok(false);
             }
             self.number += 1;
-            if read == MAX_LINE {
+            if read >= MAX_LINE {
                 return Err(Fault::line_too_long(self.number));
             }
             self.line.pop_if(|last| *last == b'\n');
             if self.is_quoted {
                 quoted::separate(&mut self.line);
             }
-            if !self.is_skipped() {
+            if !self.line().is_skipped() {
                 return Ok(true);
             }
         }
     }
 
+    /// This line.
+    pub fn line(&self) -> Line<'_> {
+        Line::new(&self.line, self.separator)
+    }
+
+    /// Takes this line out, so that others may be read ahead while it is looked at.
+    pub fn take(&mut self) -> Vec<u8> {
+        std::mem::take(&mut self.line)
+    }
+
+    /// Gives back what was taken out: its memory holds the next line.
+    pub fn give_back(&mut self, line: Vec<u8>) {
+        self.line = line;
+    }
+}
+
+/// A line without its end.
+#[derive(Clone, Copy)]
+pub(super) struct Line<'a> {
+    text: &'a [u8],
+    separator: u8,
+}
+
+impl<'a> Line<'a> {
+    pub fn new(text: &'a [u8], separator: u8) -> Self {
+        Self { text, separator }
+    }
+
     /// Whether this line is blank or a comment. One of nothing but separators is not blank: its numbers are missing.
-    fn is_skipped(&self) -> bool {
+    fn is_skipped(self) -> bool {
         let is_field = |part: &&[u8]| self.separator != b' ' || !part.is_empty();
-        let parts = self.line.split(|&byte| byte == self.separator);
+        let parts = self.text.split(|&byte| byte == self.separator);
         let mut parts = parts.filter(is_field);
         let first = parts.next().unwrap_or_default();
         text::is_comment(first) || first.trim_ascii().is_empty() && parts.next().is_none()
     }
 
     /// The fields of this line; where blanks separate them, only those that are not empty.
-    pub fn fields(&self) -> impl Iterator<Item = &[u8]> {
-        text::all_fields(&self.line, self.separator)
+    pub fn fields(self) -> impl Iterator<Item = &'a [u8]> {
+        text::all_fields(self.text, self.separator)
     }
 }

@@ -75,19 +75,30 @@ pub(super) struct TimeAxis {
 impl TimeAxis {
     /// Finds the rate of the `first` times; none if there are not two, or if time mostly stands still.
     pub fn of(first: &[f64], printed: Printed) -> Option<Self> {
-        let [start, .., end] = first else { return None };
+        let [start, .., _] = first else { return None };
         let steps: Vec<f64> = first.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let median = median(&mut steps.clone())?;
         if median <= 0.0 {
             return None;
         }
-        // The mean of all but the gaps: a lost sample must not bias the rate it is to be measured by.
-        let usual = steps
-            .iter()
-            .filter(|&step| (step - median).abs() < 0.5 * median);
+        // The first time may be wrong like any other.
+        let is_near = |step: f64| (step - median).abs() < 0.5 * median;
+        let start = match steps[..] {
+            [own, next, after, ..]
+                if !is_forward(own / median, MAX_ROUNDING) && is_near(next) && is_near(after) =>
+            {
+                first[1]
+            }
+            _ => *start,
+        };
+        let end = start + steps.len() as f64 * median;
+        let rounding = printed.step(start).max(printed.step(end));
+        // The mean of all but the uneven ones: a lost sample or a wrong time must not bias the rate it is to be measured by.
+        let tolerance = 1.5 * rounding + STEP_TOLERANCE * median;
+        let is_usual = |step: f64| is_near(step) && (step - median).abs() <= tolerance;
+        let usual = steps.iter().filter(|&&step| is_usual(step));
         let (count, sum) = usual.fold((0.0, 0.0), |(count, sum), step| (count + 1.0, sum + step));
         let runs = (steps.len() + 1) as f64 - count;
-        let rounding = printed.step(*start).max(printed.step(*end));
         let uncertainty = runs * rounding / count;
         let mean = sum / count;
         let rate = roundest(1.0 / mean, uncertainty / mean / mean);
@@ -104,17 +115,17 @@ impl TimeAxis {
                 .max()
                 .zip(apart().min())
                 .is_some_and(|(most, least)| most - least <= 2);
-        let rounding = printed.step(*start);
+        let rounding = printed.step(start);
         Some(Self {
             rate,
             rate_uncertainty: uncertainty,
-            start: *start,
+            start,
             count: 0,
             drifted: None,
             step: 1.0 / rate,
-            last: *start,
+            last: start,
             rounding,
-            anchor: *start,
+            anchor: start,
             lines: 0,
             uncertainty,
             // A few uneven steps are faults; many or regular ones come from the rounding.
@@ -194,19 +205,70 @@ impl TimeAxis {
         self.last
     }
 
+    /// The first time, s.
+    pub fn start(&self) -> f64 {
+        self.start
+    }
+
+    /// Rounding near this time, in samples.
+    fn rounding(&self, now: f64, printed: Printed) -> f64 {
+        printed.step(now).max(self.rounding) / self.step
+    }
+
+    /// Whether a time follows the last one without a gap.
+    pub fn is_next(&self, now: f64, printed: Printed) -> bool {
+        let off = ((now - self.last) / self.step - 1.0).abs();
+        off <= STEP_TOLERANCE + self.rounding(now, printed).min(0.5 - STEP_TOLERANCE)
+    }
+
+    /// Whether a time that does not follow the last one is wrong by the times `ahead`, behind it; none if more of these are needed to tell.
+    /// One between samples is wrong only if `may_be_between`: where many are, samples are not taken at a constant rate.
+    pub fn is_odd(
+        &self,
+        now: f64,
+        ahead: &[f64],
+        printed: Printed,
+        may_be_between: bool,
+    ) -> Option<bool> {
+        let rounding = self.rounding(self.last, printed);
+        if self.is_coarse(rounding) {
+            return Some(false);
+        }
+        let samples = |time: f64| (time - self.last) / self.step;
+        let is_whole =
+            |time: f64| is_forward(samples(time), self.tolerance(samples(time), rounding));
+        // A gap: only if time runs back behind it may it be none.
+        if is_whole(now) && ahead.first().is_some_and(|&next| next > now) {
+            return Some(false);
+        }
+        let is_resumed = |pair: &[f64]| is_whole(pair[0]) && is_whole(pair[1]) && pair[0] < pair[1];
+        let mut pairs = ahead.windows(2);
+        if now > self.last && !is_whole(now) && ahead.first().is_some_and(|&next| next > now) {
+            return Some(may_be_between && pairs.next().is_some_and(is_resumed));
+        }
+        pairs.any(is_resumed).then_some(true)
+    }
+
+    /// Whether rounding, in samples, hides lost samples.
+    fn is_coarse(&self, rounding: f64) -> bool {
+        rounding > MAX_ROUNDING && rounding * self.step > self.harmless
+    }
+
+    /// Largest deviation of a time so many samples later from a whole number of these.
+    fn tolerance(&self, samples: f64, rounding: f64) -> f64 {
+        STEP_TOLERANCE + rounding.min(MAX_ROUNDING) + samples * self.uncertainty / self.step
+    }
+
     /// Checks the time of the next line: gives the number of samples lost before it, or how it breaks the rate.
     pub fn check(&mut self, now: f64, printed: Printed) -> Result<u64, String> {
-        let step = now - self.last;
-        let printed = printed.step(now);
-        let rounding = printed.max(self.rounding) / self.step;
-        let off = (step / self.step - 1.0).abs();
-        let lost = if off > STEP_TOLERANCE + rounding.min(0.5 - STEP_TOLERANCE) {
-            self.lost(now, rounding)?
-        } else {
+        let rounding = self.rounding(now, printed);
+        let lost = if self.is_next(now, printed) {
             0
+        } else {
+            self.lost(now, rounding)?
         };
         self.last = now;
-        self.rounding = printed;
+        self.rounding = printed.step(now);
         self.lines += 1 + lost;
         self.count += 1 + lost;
         if self.lines < RATE_LINES {
@@ -241,13 +303,11 @@ impl TimeAxis {
         let (from, to, usual) = (self.last, now, self.step);
         let step = to - from;
         let samples = step / usual;
-        let tolerance =
-            STEP_TOLERANCE + rounding.min(MAX_ROUNDING) + samples * self.uncertainty / usual;
-        if rounding > MAX_ROUNDING && rounding * usual > self.harmless {
+        if self.is_coarse(rounding) {
             Err(coarse(rounding * usual, usual))
         } else if step <= 0.0 {
             Err(backwards(from, to))
-        } else if samples > 1.5 && (samples - samples.round()).abs() <= tolerance {
+        } else if samples > 1.5 && is_forward(samples, self.tolerance(samples, rounding)) {
             Ok(samples.round() as u64 - 1)
         } else {
             Err(format!(
@@ -255,6 +315,11 @@ impl TimeAxis {
             ))
         }
     }
+}
+
+/// Whether this is a whole number of samples, at least 1, within a tolerance.
+fn is_forward(samples: f64, tolerance: f64) -> bool {
+    samples > 0.5 && (samples - samples.round()).abs() <= tolerance
 }
 
 /// Whether each of `times` stands in two lines, as for a minimum and a maximum; the first or the last may stand alone.

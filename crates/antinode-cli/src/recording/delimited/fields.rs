@@ -2,7 +2,7 @@
 
 use super::super::error::{Fault, Place, ROLES, TIME};
 use super::super::header::Header;
-use super::super::lines::Lines;
+use super::super::lines::{Line, Lines};
 use crate::digits::counted;
 
 /// The fields of a line that are to be read.
@@ -14,21 +14,13 @@ pub(super) struct Fields<'a> {
 }
 
 /// The fields of this line.
-pub(super) fn cut<'a>(lines: &'a Lines, header: &Header) -> Fields<'a> {
-    let mut found = [None; 3];
-    let (mut count, mut last_is_blank) = (0, false);
-    for field in lines.fields() {
-        for (text, place) in found.iter_mut().zip(header.places) {
-            if place == Some(count) {
-                *text = Some(field);
-            }
-        }
-        (count, last_is_blank) = (count + 1, field.is_empty());
-    }
-    // A single separator at the end of a line does not begin another field.
-    let is_long = count > header.width + usize::from(last_is_blank);
-    let mut roles = 0..ROLES.len();
-    let short = roles.find(|&role| header.places[role].is_some() && found[role].is_none());
+pub(super) fn cut<'a>(line: Line<'a>, lines: &Lines, header: &Header) -> Fields<'a> {
+    let Cut {
+        texts,
+        count,
+        is_long,
+        short,
+    } = Cut::of(line, header);
     let fault = if is_long {
         let names = if count == header.width + 1 {
             ", and write no row names (in R `row.names = FALSE`)"
@@ -44,19 +36,61 @@ pub(super) fn cut<'a>(lines: &'a Lines, header: &Header) -> Fields<'a> {
     } else {
         short.map(|role| missing(header, place(lines, header, role), role))
     };
-    for (text, place) in found.iter_mut().zip(header.places) {
-        // In two lines run together no field is certain; in a line cut off, all are but the one that is cut.
-        if is_long || short.is_some() && place.is_some_and(|place| place + 1 == count) {
-            *text = None;
-        }
-    }
     let description = || {
         let fields = counted(count as u64, "field");
         format!("a line of {fields} where the first has {}", header.width)
     };
     Fields {
-        texts: found.map(Option::unwrap_or_default),
+        texts,
         broken: fault.map(|fault| (fault, description())),
+    }
+}
+
+/// The time as it is written in a line; empty as in [`Fields`].
+pub(super) fn time<'a>(line: Line<'a>, header: &Header) -> &'a [u8] {
+    Cut::of(line, header).texts[TIME]
+}
+
+/// A line cut into fields.
+struct Cut<'a> {
+    /// As in [`Fields`].
+    texts: [&'a [u8]; 3],
+    /// The number of fields.
+    count: usize,
+    /// Whether there are too many.
+    is_long: bool,
+    /// The first role whose field is missing.
+    short: Option<usize>,
+}
+
+impl<'a> Cut<'a> {
+    fn of(line: Line<'a>, header: &Header) -> Self {
+        let mut found = [None; 3];
+        let (mut count, mut last_is_blank) = (0, false);
+        for field in line.fields() {
+            for (text, place) in found.iter_mut().zip(header.places) {
+                if place == Some(count) {
+                    *text = Some(field);
+                }
+            }
+            (count, last_is_blank) = (count + 1, field.is_empty());
+        }
+        // A single separator at the end of a line does not begin another field.
+        let is_long = count > header.width + usize::from(last_is_blank);
+        let mut roles = 0..ROLES.len();
+        let short = roles.find(|&role| header.places[role].is_some() && found[role].is_none());
+        for (text, place) in found.iter_mut().zip(header.places) {
+            // In two lines run together no field is certain; in a line cut off, all are but the one that is cut.
+            if is_long || short.is_some() && place.is_some_and(|place| place + 1 == count) {
+                *text = None;
+            }
+        }
+        Self {
+            texts: found.map(Option::unwrap_or_default),
+            count,
+            is_long,
+            short,
+        }
     }
 }
 

@@ -6,18 +6,28 @@ use super::super::error::{CHANNELS, Fault, Place, ROLES, TIME};
 use super::super::forms::remedy;
 use super::super::header::{Header, lossy};
 use super::super::left_out::LeftOut;
-use super::super::lines::Lines;
+use super::super::lines::{Line, Lines};
 use super::super::no_number::stand_in;
 use super::super::not_finite::Flaw;
 use super::super::number::number;
 use super::super::printed::Printed;
-use super::fields::{Fields, cut, missing, place};
+use super::super::time::TimeAxis;
+use super::fields::{self, Fields, cut, missing, place};
 
 /// Characters of a bad field that an error shows, at most.
 const MAX_SHOWN: usize = 40;
 
 /// Garbled lines before the first good one from which on the text is refused: fewer may be a glitch.
 const MIN_GARBLED_BEGINNING: u64 = 2;
+
+/// Lines that are read ahead of a time that does not follow the last one, to see whether it alone is wrong: first a few, and then as many
+/// as are sent twice at most.
+const FEW_AHEAD: usize = 3;
+const MOST_AHEAD: usize = 256;
+
+/// Lines whose time may lie between samples by accident: so many, and one more for each so many lines read.
+const MIN_ODD: u64 = 4;
+const READ_PER_ODD: u64 = 256;
 
 /// The content of one line.
 pub(super) enum Row {
@@ -32,6 +42,8 @@ pub(super) struct Rows {
     pub lines: Lines,
     pub header: Header,
     pub printed: Printed,
+    /// The times so far, once their rate is known.
+    pub axis: Option<TimeAxis>,
     /// The first sample that is not a finite number.
     pub not_finite: Option<Flaw>,
     /// The lines that are left out.
@@ -41,6 +53,8 @@ pub(super) struct Rows {
     pub pairs: u64,
     /// Lines among them with too many or too few fields, or one that is neither a number nor stands for a missing one.
     garbled: u64,
+    /// Lines left out as their time is wrong.
+    odd: u64,
     /// The first garbled line: the pairs before it, and its fault.
     first_garbled: Option<(u64, Fault)>,
     /// Garbled lines before the first good one.
@@ -56,11 +70,13 @@ impl Rows {
             lines,
             header,
             printed: Printed::default(),
+            axis: None,
             not_finite: None,
             left_out: LeftOut::default(),
             read: 0,
             pairs: 0,
             garbled: 0,
+            odd: 0,
             first_garbled: None,
             garbled_before: 0,
         })
@@ -81,12 +97,78 @@ impl Rows {
         first
     }
 
+    /// Finds the rate of the times in the next lines, as many as `lines`, and gives these times, s.
+    pub fn look_ahead(&mut self, lines: usize) -> Result<Vec<f64>, Fault> {
+        self.lines.look_ahead(lines)?;
+        let (mut times, mut printed) = (Vec::new(), self.printed);
+        for line in self.lines.ahead() {
+            let text = fields::time(line, &self.header);
+            if let Some(time) = self.time(text) {
+                printed.see(text, time, self.header.exponent);
+                times.push(self.seconds(time));
+            }
+        }
+        self.printed = printed;
+        self.axis = TimeAxis::of(&times, printed);
+        Ok(times)
+    }
+
+    /// The time in this field, in its own unit.
+    fn time(&self, text: &[u8]) -> Option<f64> {
+        number::<f64>(text, self.lines.separator).filter(|time| time.is_finite())
+    }
+
+    fn seconds(&self, time: f64) -> f64 {
+        time / 10f64.powi(-self.header.exponent)
+    }
+
+    /// Whether this time, s, is wrong, as the lines behind it continue those before it.
+    fn is_odd(&mut self, time: f64) -> Result<bool, Fault> {
+        for lines in [FEW_AHEAD, MOST_AHEAD] {
+            let Some(axis) = &self.axis else {
+                return Ok(false);
+            };
+            if self.pairs == 0 {
+                return Ok(time != axis.start());
+            }
+            if axis.is_next(time, self.printed) {
+                return Ok(false);
+            }
+            self.lines.look_ahead(lines)?;
+            let ahead = self.lines.ahead().take(lines);
+            let ahead = ahead.filter_map(|line| self.time(fields::time(line, &self.header)));
+            let ahead: Vec<f64> = ahead.map(|time| self.seconds(time)).collect();
+            let may_be_between = self.odd < MIN_ODD + self.read / READ_PER_ODD;
+            if let Some(is_odd) = axis.is_odd(time, &ahead, self.printed, may_be_between) {
+                self.odd += u64::from(is_odd);
+                return Ok(is_odd);
+            }
+        }
+        Ok(false)
+    }
+
     /// The next line's row; none at the end.
     pub fn next(&mut self) -> Result<Option<Row>, Fault> {
         if !self.advance()? {
             return Ok(None);
         }
-        let Fields { texts, broken } = cut(&self.lines, &self.header);
+        // Taken out, so that lines may be read ahead of it.
+        let line = self.lines.take();
+        let row = self.row(Line::new(&line, self.lines.separator));
+        self.lines.give_back(line);
+        row.map(Some)
+    }
+
+    /// The row of a line.
+    fn row(&mut self, line: Line) -> Result<Row, Fault> {
+        let Fields { texts, broken } = cut(line, &self.lines, &self.header);
+        let own_time = self.time(texts[TIME]);
+        let time = own_time.map(|time| self.seconds(time));
+        let is_odd = match time {
+            Some(time) => self.is_odd(time)?,
+            None => false,
+        };
+        let time = time.filter(|_| !is_odd);
         let (broken, broken_line) = broken.unzip();
         let mut pair = [f32::NAN; 2];
         // The roles of the first field that is no finite number, and of the first that does not even stand for one.
@@ -103,26 +185,30 @@ impl Rows {
                 odd = odd.or(Some((role, read)));
             }
         }
-        let time = number::<f64>(texts[0], self.lines.separator).filter(|time| time.is_finite());
-        if let Some(time) = time {
-            self.printed.see(texts[0], time, self.header.exponent);
+        if let Some(time) = own_time.filter(|_| !is_odd) {
+            self.printed.see(texts[TIME], time, self.header.exponent);
         }
-        let is_left_out = time.is_none() && self.header.places[0].is_some();
+        let is_left_out = time.is_none() && self.header.places[TIME].is_some();
         if is_left_out {
-            let flaw = self.flaw(0, texts[0], None, broken_line);
+            let mut flaw = self.flaw(TIME, texts[TIME], None, broken_line);
+            if is_odd {
+                flaw.description = format!(
+                    "the time `{}` does not follow that of the line before, but the lines behind do",
+                    shown(texts[TIME])
+                );
+            }
             self.left_out.add(flaw);
-            garbled = Some(0);
+            garbled = Some(TIME).filter(|_| !is_odd);
         } else if let (Some((role, read)), None) = (odd, &self.not_finite) {
             self.not_finite = Some(self.flaw(role, texts[role], read, broken_line));
         }
         let garbled = garbled.map(|role| self.no_number(role, texts[role]));
         self.count(broken.or(garbled));
         if is_left_out {
-            return Ok(Some(Row::LeftOut));
+            return Ok(Row::LeftOut);
         }
         self.pairs += 1;
-        let time = time.map(|time| time / 10f64.powi(-self.header.exponent));
-        Ok(Some(Row::Pair(time, pair)))
+        Ok(Row::Pair(time, pair))
     }
 
     /// Goes to the next line that is not blank; false at the end.
@@ -130,7 +216,7 @@ impl Rows {
         // Separators alone are a blank line of a spreadsheet if lines have a time; without a time column they are a missing pair.
         let is_timed = self.header.places[0].is_some();
         while self.lines.advance()? {
-            if !(is_timed && self.lines.fields().all(<[u8]>::is_empty)) {
+            if !(is_timed && self.lines.line().fields().all(<[u8]>::is_empty)) {
                 return Ok(true);
             }
         }

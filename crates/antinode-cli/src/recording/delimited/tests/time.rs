@@ -97,7 +97,7 @@ fn faults_in_time_are_named_by_line() {
             "a.csv:4: 1 sample is lost before this line ",
         ),
         (
-            "0,1,2\n1.0,1,2\n2.00,1,2\n3.05,1,2\n4,1,2\n5,1,2\n",
+            "0,1,2\n1.0,1,2\n2.00,1,2\n3.05,1,2\n4.05,1,2\n5.05,1,2\n",
             3,
             "a.csv:4: time steps by 1.0500e0 s here, but by 1.0000e0 s elsewhere; sample at",
         ),
@@ -121,6 +121,67 @@ fn faults_in_time_are_named_by_line() {
         let remedy = ", or ignore the time column with --columns 2,3 --rate HZ";
         assert!(fault.ends_with(remedy), "{fault}");
     }
+}
+
+#[test]
+fn a_line_whose_time_is_wrong_is_left_out_and_the_next_are_read() {
+    let line = |k: usize| format!("{:.5},{},0.5", k as f64 * 1e-5, k % 7);
+    let lines: Vec<String> = (0..100_000).map(line).collect();
+    for at in [40, 90_000] {
+        let time = &lines[at][..7];
+        let wrong = |text: &str| vec![lines[at].replacen(time, text, 1)];
+        let again = || lines[at - 19..at].to_vec();
+        // What stands in place of some lines, how many are replaced, and the pairs and the line of the fault.
+        for (new, old, pairs, line) in [
+            (wrong("0.0"), 1, 99_999, at + 1),
+            (wrong("-1"), 1, 99_999, at + 1),
+            (wrong("9.9E37"), 1, 99_999, at + 1),
+            (wrong("0.900031"), 1, 99_999, at + 1),
+            (wrong("0.99999"), 1, 99_999, at + 1),
+            (again(), 0, 100_000, at + 1),
+            (
+                vec![lines[at + 1].clone(), lines[at].clone()],
+                2,
+                99_999,
+                at + 1,
+            ),
+            (
+                vec![lines[at][..8].to_owned(), lines[at][8..].to_owned()],
+                1,
+                100_000,
+                at + 2,
+            ),
+        ] {
+            let mut all = lines.clone();
+            all.splice(at..at + old, new.clone());
+            let (count, fault) = bad(&(all.join("\n") + "\n"));
+            assert_eq!(count, pairs, "{new:?}: {fault}");
+            let is_told = fault.contains("the lines behind do: the line is left out");
+            assert!(
+                is_told && fault.starts_with(&format!("a.csv:{line}")),
+                "{new:?}: {fault}"
+            );
+        }
+    }
+    // The first one too.
+    for first in ["7,1,2\n", "-3.700004,1,2\n"] {
+        let (pairs, fault) = bad(&(first.to_owned() + &lines[1..].join("\n")));
+        assert_eq!(pairs, 99_999, "{first}");
+        assert!(fault.starts_with("a.csv:1:1: the time `"), "{fault}");
+    }
+}
+
+#[test]
+fn samples_at_uneven_times_are_refused() {
+    let time = |k: u32| f64::from(k) + [0.0, 0.02, -0.02, 0.005, 0.0, 0.0][k as usize % 6];
+    let text: String = (0..10_000)
+        .map(|k| format!("{:.3},1,2\n", time(k)))
+        .collect();
+    let (pairs, fault) = bad(&text);
+    assert!(
+        pairs < 40 && fault.contains("sample at a constant rate"),
+        "{pairs}: {fault}"
+    );
 }
 
 #[test]

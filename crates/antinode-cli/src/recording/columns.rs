@@ -100,6 +100,15 @@ impl FirstLine<'_> {
         }
     }
 
+    /// The place of a column that counts the samples, by its name, where these suggested places have no time.
+    pub fn counter(&self, places: Places) -> Option<usize> {
+        let names = self
+            .names
+            .filter(|_| self.may_be_timed && places[TIME].is_none())?;
+        let mut unused = (0..names.len()).filter(|&place| !places.contains(&Some(place)));
+        unused.find(|&place| is_count(&names[place]) || names.len() == 3 && is_index(&names[place]))
+    }
+
     fn chosen(&self, columns: &Columns) -> Result<Places, String> {
         let [c, d] = &columns.signals;
         let wanted = [columns.time.as_ref(), Some(c), Some(d)];
@@ -322,7 +331,8 @@ fn is_index(name: &str) -> bool {
 /// Whether a name is that of a count of lines, whatever the other columns are.
 fn is_count(name: &str) -> bool {
     let names = [
-        "", "#", "n", "nr", "no", "index", "sample", "samples", "point", "points",
+        "", "#", "n", "nr", "no", "index", "idx", "sample", "samples", "point", "points",
+        "counter", "seq",
     ];
     names.contains(&name.to_lowercase().trim_end_matches('.'))
 }

@@ -47,7 +47,8 @@ pub(super) fn open(stream: Stream, options: &OpenOptions, live: bool) -> Result<
         return Err(source.fault.take().unwrap_or_else(Fault::no_pairs));
     }
     let (sample_rate, start) = (source.rate(), source.start());
-    let axis = source.rows.axis.as_ref();
+    // A count of samples shows which are missing, and no more.
+    let axis = source.rows.axis.as_ref().filter(|_| !source.is_counted());
     let meaning = match (source.rows.header.sequence, sample_rate) {
         (Some(_), Some(own)) => Some(Meaning::of_rate(own, options.rate)),
         _ => axis.map(|axis| axis.meaning(source.rows.printed, options.rate)),
@@ -93,9 +94,10 @@ pub(super) struct Delimited {
 impl Delimited {
     /// Reads as many lines as it takes to find the sample rate, and checks their times.
     fn read_ahead(&mut self, head: u64) -> Result<(), Fault> {
+        self.rows.find_counter(FEW_LINES as usize)?;
         let times = match self.rows.header.places[0] {
-            Some(_) => self.rows.look_ahead(head as usize)?,
-            None => Vec::new(),
+            Some(_) if self.rows.axis.is_none() => self.rows.look_ahead(head as usize)?,
+            _ => Vec::new(),
         };
         let standing = if are_paired(&times) {
             Some((0, PAIRED.to_owned()))
@@ -145,16 +147,23 @@ impl Delimited {
 
     /// The sample rate, Hz, by the times or else by the header.
     fn rate(&self) -> Option<f64> {
-        let by_times = self.rows.axis.as_ref().map(TimeAxis::rate);
+        let axis = self.rows.axis.as_ref().filter(|_| !self.is_counted());
+        let by_times = axis.map(TimeAxis::rate);
         match self.rows.header.sequence {
             Some(sequence) => Some(roundest(by_times.unwrap_or(1.0) / sequence.step, 0.0)),
             None => by_times,
         }
     }
 
+    /// Whether the samples are counted, and have no times.
+    fn is_counted(&self) -> bool {
+        self.rows.header.counter.is_some()
+    }
+
     /// The first sample's time, s.
     fn start(&self) -> f64 {
         match self.rows.header.sequence {
+            _ if self.is_counted() => 0.0,
             Some(sequence) if self.rows.axis.is_some() || !sequence.is_counted => {
                 sequence.seconds(self.start)
             }
@@ -172,6 +181,11 @@ impl Delimited {
         let line = self.rows.lines.number();
         let last = axis.last();
         let lost = axis.check(time, self.rows.printed);
+        if lost.is_err() && self.rows.header.counter.is_some() {
+            // A count that begins anew tells nothing.
+            self.rows.ignore_counter();
+            return Ok(());
+        }
         let lost = lost.map_err(|fault| self.rows.header.time_fault(line, &fault))?;
         if lost > 0 {
             let sequence = self.rows.header.sequence;
@@ -261,13 +275,17 @@ impl Delimited {
             );
             return Some(Fault::at(first.place, told));
         }
-        let (line, fault) = self.gaps.fault()?;
+        let (line, fault) = self.gaps.fault(self.is_counted())?;
         Some(self.rows.header.time_fault(line, &fault))
     }
 
     /// A warning about the samples delivered that could not be given before.
     pub fn late_warning(&self) -> Option<String> {
-        self.rows.axis.as_ref()?.late_warning(self.used)
+        self.rows
+            .axis
+            .as_ref()
+            .filter(|_| !self.is_counted())?
+            .late_warning(self.used)
     }
 
     /// The first sample that is not a finite number, with its place.

@@ -71,6 +71,14 @@ impl Fault {
         ))
     }
 
+    /// More data follow those that the header promises.
+    pub fn followed(promised: u64) -> Self {
+        Self::new(format!(
+            "at its end: more data follow the {promised} sample pairs that the header promises, and are not read; save one array a file, \
+             or correct the header"
+        ))
+    }
+
     /// No end of line within the limit: not lines of text.
     pub fn line_too_long(line: u64) -> Self {
         Self::line(

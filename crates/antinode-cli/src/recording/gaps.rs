@@ -84,8 +84,8 @@ impl Gaps {
         Some((self.first?.line, self.lost))
     }
 
-    /// The line of the first gap to be reported, and the fault that reports all.
-    pub fn fault(&self) -> Option<(u64, String)> {
+    /// The line of the first gap to be reported, and the fault that reports all; times are counts of samples if they `are_counts`.
+    pub fn fault(&self, are_counts: bool) -> Option<(u64, String)> {
         let first = self.first?;
         let Found { gap, from, to, .. } = first;
         let of_all = match self.count {
@@ -98,8 +98,13 @@ impl Gaps {
                 ", one every {every} samples, as if packets had their own time stamps and nothing were lost"
             )
         });
+        let of_times = if are_counts {
+            format!("the count of samples goes from {from} to {to}")
+        } else {
+            format!("time goes from {from} s to {to} s")
+        };
         let told = format!(
-            "{} before this line (time goes from {from} s to {to} s){of_all}{every}; rows whose window spans a gap are \
+            "{} before this line ({of_times}){of_all}{every}; rows whose window spans a gap are \
              missing, all others are good; record it again without loss",
             are_lost(gap.lost)
         );

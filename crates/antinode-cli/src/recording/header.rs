@@ -17,6 +17,8 @@ use crate::rows::MAIN_AMPLITUDE;
 pub(super) struct Header {
     pub width: usize,
     pub places: Places,
+    /// The column that counts the samples, if none holds their times and none is chosen.
+    pub counter: Option<usize>,
     /// The power of ten of the time's unit in seconds: −3 for ms.
     pub exponent: i32,
     /// The times of the samples, if these are counted from a start in equal steps.
@@ -68,6 +70,7 @@ impl Header {
         let mut header = Self {
             width,
             places,
+            counter: line.counter(places).filter(|_| chosen.is_none()),
             exponent: 0,
             sequence: sequence.filter(|_| places[0].is_none()),
             divisors: [1.0; 2],
@@ -247,7 +250,12 @@ impl Header {
     /// What is wrong with a time, with the columns to read without it.
     pub fn or_ignore_time(&self, told: &str) -> String {
         let samples = self.samples();
-        format!("{told}, or ignore the time column with --columns {samples} --rate HZ")
+        let column = if self.counter.is_some() {
+            "counting"
+        } else {
+            "time"
+        };
+        format!("{told}, or ignore the {column} column with --columns {samples} --rate HZ")
     }
 }
 

@@ -10,7 +10,7 @@ use npyz::{DType, Endianness, NpyHeader, Order, TypeChar};
 use super::columns::Columns;
 use super::error::Fault;
 use super::frame::Frame;
-use super::raw::Interleaved;
+use super::raw::{Followed, Interleaved};
 use super::sample::{Kind, SampleCode};
 use super::source::Known;
 use super::{Opened, Source, Stream};
@@ -53,7 +53,7 @@ pub(super) fn open(
     let (source, there) = if is_interleaved {
         let source = Interleaved::new(stream, code, frame, length.is_none());
         (
-            Source::Interleaved(source.promise(bytes, false)),
+            Source::Interleaved(source.promise(bytes, Followed::ByNothing)),
             available / (channels * size),
         )
     } else {
@@ -71,6 +71,7 @@ pub(super) fn open(
             starts: [start + c, start + d],
             promised: pairs,
             there,
+            is_followed: length.is_some_and(|length| length > start + bytes),
             read: 0,
             count,
             chunks: [Vec::new(), Vec::new(), Vec::new()],
@@ -196,6 +197,8 @@ pub(super) struct Planes {
     promised: u64,
     /// The number of pairs of which both samples are there.
     there: u64,
+    /// Whether something follows the array.
+    is_followed: bool,
     read: u64,
     /// The bytes read.
     count: Rc<Cell<u64>>,
@@ -231,6 +234,8 @@ impl Planes {
                 let (promised, found) = (self.promised, self.there);
                 return if found < promised {
                     Err(Fault::truncated(promised, found))
+                } else if self.is_followed {
+                    Err(Fault::followed(promised))
                 } else {
                     Ok(())
                 };

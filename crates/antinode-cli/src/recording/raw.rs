@@ -34,8 +34,17 @@ struct Promise {
     pairs: u64,
     /// The bytes not yet read.
     left: u64,
-    /// Whether it is to be checked that only other chunks of a WAV file follow.
-    is_wav: bool,
+    /// What may follow it, until that is checked.
+    followed: Option<Followed>,
+}
+
+/// What may follow the data that a header promises.
+#[derive(Clone, Copy)]
+pub(super) enum Followed {
+    /// The other chunks of a WAV file.
+    ByChunks,
+    /// Nothing.
+    ByNothing,
 }
 
 /// Opens samples without a header, of as many channels as the options say.
@@ -97,12 +106,12 @@ impl Interleaved {
         self.frame.channels * self.code.sample_bytes()
     }
 
-    /// Reads no more than `bytes` of samples, and fails if there are fewer, or if others than chunks follow them in a WAV file.
-    pub fn promise(mut self, bytes: u64, is_wav: bool) -> Self {
+    /// Reads no more than `bytes` of samples, and fails if there are fewer, or if something else follows them than may.
+    pub fn promise(mut self, bytes: u64, followed: Followed) -> Self {
         self.promise = Some(Promise {
             pairs: bytes / self.frame_bytes() as u64,
             left: bytes,
-            is_wav,
+            followed: Some(followed),
         });
         self
     }
@@ -124,15 +133,17 @@ impl Interleaved {
         }
     }
 
-    /// The fault if something else than padding or chunks follows the promised data of a WAV file. A pipe is not waited for.
+    /// The fault if something else than padding or what may be there follows the promised data.
     ///
     /// It looks only once: what follows the name of a chunk may be anything.
     fn behind(&mut self) -> Option<Fault> {
         let promise = self.promise.as_mut()?;
-        if !std::mem::take(&mut promise.is_wav) || promise.left > 0 || self.live {
-            return None;
-        }
+        let followed = promise.followed.take_if(|_| promise.left == 0)?;
         let promised = promise.pairs;
+        if let Followed::ByNothing = followed {
+            let is_followed = self.stream.read_exact(&mut [0]).is_ok();
+            return is_followed.then(|| Fault::followed(promised));
+        }
         // Chunks begin at even places: behind an odd number of bytes there is one more.
         let read = self.pairs * self.frame_bytes() as u64 + self.begun as u64;
         let mut padding = [0; 1];
@@ -141,6 +152,7 @@ impl Interleaved {
             .ok()?;
         let mut header = [0; CHUNK_HEADER];
         self.stream.read_exact(&mut header).ok()?;
+        let size = u32::from_le_bytes([header[4], header[5], header[6], header[7]]);
         match &header[..4] {
             _ if header == [0; CHUNK_HEADER] => None,
             // As `cat` joins files.
@@ -149,17 +161,19 @@ impl Interleaved {
                  `sox part1.wav part2.wav whole.wav`",
                 self.pairs
             ))),
-            name if name
-                .iter()
-                .all(|byte| byte.is_ascii_graphic() || *byte == b' ') =>
-            {
-                None
-            }
+            // Samples may look like a name, but hardly like the size of what follows too.
+            name if is_name(name) && self.skip(size) => None,
             _ => Some(Fault::new(format!(
                 "the WAV header promises {promised} sample pairs, but more follow, which are not read: the header was never completed, or \
                  cannot hold so large a number; correct it, for example with `sox --ignore-length FILE whole.wav`"
             ))),
         }
+    }
+
+    /// Skips so many bytes; false if there are fewer.
+    fn skip(&mut self, bytes: u32) -> bool {
+        let mut chunk = self.stream.by_ref().take(u64::from(bytes));
+        io::copy(&mut chunk, &mut io::sink()).is_ok_and(|skipped| skipped == u64::from(bytes))
     }
 
     fn end(&mut self) -> Result<(), Fault> {
@@ -212,6 +226,12 @@ impl Interleaved {
         }
         Ok(())
     }
+}
+
+/// Whether this may be the name of a chunk.
+fn is_name(name: &[u8]) -> bool {
+    name.iter()
+        .all(|byte| byte.is_ascii_graphic() || *byte == b' ')
 }
 
 #[cfg(test)]

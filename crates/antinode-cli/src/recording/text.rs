@@ -1,6 +1,7 @@
 //! Lines of text and the numbers in them.
 
 use std::io::{self, BufRead, Cursor, Read};
+use std::iter;
 
 use super::Stream;
 use super::columns::is_time;
@@ -14,7 +15,8 @@ pub(super) fn with_line_ends(mut stream: Stream) -> io::Result<Stream> {
     let (mut head, mut byte) = (Vec::new(), [0]);
     // Before a separator, a `\r` ended a line of a file that was pasted to the left of another.
     let is_end = |head: &[u8]| match head {
-        [.., b'\r', next] => !is_mark(*next),
+        // Behind several, all of them blank lines, the next byte tells.
+        [.., b'\r', next] => !is_mark(*next) && *next != b'\r',
         _ => head.ends_with(b"\n"),
     };
     while head.len() < MAX_LINE && !is_end(&head) && stream.read(&mut byte)? > 0 {
@@ -177,8 +179,39 @@ pub(super) fn fields(line: &[u8], separator: u8) -> impl Iterator<Item = &[u8]> 
 
 /// The same with an empty field behind a separator at the end.
 pub(super) fn all_fields(line: &[u8], separator: u8) -> impl Iterator<Item = &[u8]> {
-    let fields = line.split(move |&byte| byte == separator).map(bare);
+    let mut rest = Some(line);
+    let fields = iter::from_fn(move || {
+        let line = rest?;
+        let end = field_end(line, separator);
+        rest = line.get(end + 1..);
+        Some(bare(&line[..end]))
+    });
     fields.filter(move |field| separator != b' ' || !field.is_empty())
+}
+
+/// Where the first field of a line ends. Separators within quotes belong to it, if the quotes enclose a whole field.
+fn field_end(line: &[u8], separator: u8) -> usize {
+    let end_from = |from: usize| {
+        let end = line[from..].iter().position(|&byte| byte == separator);
+        end.map_or(line.len(), |end| from + end)
+    };
+    let first = end_from(0);
+    let opened = line[..first].trim_ascii_start();
+    if opened.first() != Some(&b'"') || separator == b' ' {
+        return first;
+    }
+    let mut end = first;
+    loop {
+        // A quote within quotes is doubled.
+        let quotes = line[..end].iter().filter(|&&byte| byte == b'"').count();
+        if quotes % 2 == 0 && line[..end].trim_ascii_end().ends_with(b"\"") {
+            return end;
+        }
+        if end == line.len() {
+            return first;
+        }
+        end = end_from(end + 1);
+    }
 }
 
 /// A field without the blanks and quotes around it.

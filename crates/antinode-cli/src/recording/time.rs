@@ -142,11 +142,16 @@ impl TimeAxis {
         self.rate
     }
 
+    /// Whether the column counts the samples, one by one.
+    pub fn is_count(&self, printed: Printed) -> bool {
+        self.rate == 1.0 && printed.is_whole()
+    }
+
     /// The meaning of the column if the rate `asked` is asked for, Hz.
     pub fn meaning(&self, printed: Printed, asked: Option<f64>) -> Meaning {
         let meaning = Meaning::of_rate(self.rate, asked);
         // An index goes up by one whole a line; so may seconds.
-        let is_like_index = self.rate == 1.0 && printed.is_whole();
+        let is_like_index = self.is_count(printed);
         match (asked, meaning) {
             (None, _) if is_like_index => Meaning::PerhapsIndex,
             (Some(_), Meaning::OtherRate { .. }) if is_like_index => Meaning::Index,

@@ -4,7 +4,7 @@ use std::io::{self, Read};
 
 use super::error::Fault;
 use super::frame::Frame;
-use super::raw::Interleaved;
+use super::raw::{Followed, Interleaved};
 use super::sample::{Kind, SampleCode};
 use super::time::Meaning;
 use super::{OpenOptions, Opened, Source, Stream};
@@ -45,7 +45,7 @@ pub(super) fn open(
     };
     let source = Interleaved::new(header.stream, format.code, frame, length.is_none());
     let source = match promised {
-        Some(promised) => source.promise(promised, true),
+        Some(promised) => source.promise(promised, Followed::ByChunks),
         None => source,
     };
     let sample_rate = (format.rate > 0).then_some(f64::from(format.rate));

@@ -113,6 +113,26 @@ impl Rows {
         Ok(times)
     }
 
+    /// Reads the column that counts the samples, if there is one, as their times, unless the next `lines` do not count.
+    pub fn find_counter(&mut self, lines: usize) -> Result<(), Fault> {
+        if self.header.counter.is_some() {
+            self.header.places[TIME] = self.header.counter;
+            self.look_ahead(lines)?;
+            let axis = self.axis.as_ref();
+            if axis.is_none_or(|axis| !axis.is_count(self.printed)) {
+                self.ignore_counter();
+            }
+        }
+        Ok(())
+    }
+
+    /// Reads the samples as if they were not counted.
+    pub fn ignore_counter(&mut self) {
+        self.axis = None;
+        self.header.counter = None;
+        self.header.places[TIME] = None;
+    }
+
     /// The time in this field, in its own unit.
     fn time(&self, text: &[u8]) -> Option<f64> {
         number::<f64>(text, self.lines.separator).filter(|time| time.is_finite())

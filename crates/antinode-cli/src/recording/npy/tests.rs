@@ -185,6 +185,18 @@ fn truncated_data_are_delivered_before_the_error() {
 }
 
 #[test]
+fn what_follows_an_array_is_told() {
+    for (shape, values) in [("(3, 2)", INTERLEAVED), ("(2, 3)", PLANES)] {
+        let bytes = npy("'<i2'", false, shape, &codes(&values));
+        let (pairs, fault) = read("a.npy", &[&bytes[..], &bytes].concat());
+        assert_eq!(pairs, PAIRS, "{shape}");
+        let expected =
+            "a.npy: at its end: more data follow the 3 sample pairs that the header promises";
+        assert!(fault.expect("a fault").starts_with(expected));
+    }
+}
+
+#[test]
 fn not_finite_is_named_in_either_layout() {
     let count = 40_000;
     let mut values = vec![0.5f32; 2 * count];

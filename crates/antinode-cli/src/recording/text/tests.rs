@@ -30,6 +30,13 @@ fn fields_lose_blanks_and_quotes() {
     assert_eq!(split(b" 1.5, \"2.5\" ,\r\n", b','), ["1.5", "2.5"]);
     assert_eq!(split(b"  1.5   2.5 \n", b' '), ["1.5", "2.5"]);
     assert_eq!(split(b"1,,2", b','), ["1", "", "2"]);
+    // A separator in quotes is part of the field, if they enclose all of it.
+    assert_eq!(
+        split(b"t, \"C, V\" ,\"a \"\"x, y\"\"\",d", b','),
+        ["t", "C, V", "a \"\"x, y\"\"", "d"]
+    );
+    assert_eq!(split(b"5\" x,d,\"", b','), ["5\" x", "d", "\""]);
+    assert_eq!(split(b"\"a\"b,\"c,d", b','), ["\"a\"b", "\"c", "d"]);
 }
 
 #[test]
@@ -37,6 +44,7 @@ fn lines_end_the_same_way() {
     for (text, expected) in [
         ("1,2\r3,4\r", "1,2\n3,4\n"),
         ("\r,\r3,4\r", "\n,\n3,4\n"),
+        ("c,d\r\r1,2\r", "c,d\n\n1,2\n"),
         // A `\r` before the end of a line, or of a line of the left one of two files side by side, is a blank.
         ("1,2\r\n3,4", "1,2\r\n3,4"),
         ("1,2\n3,4\n", "1,2\n3,4\n"),

@@ -225,4 +225,22 @@ fn a_pipe_needs_no_length() {
             "pipe: at its end: the header promises 1000 sample pairs, but there are 500"
         )
     );
+    // What follows the data is told as of a file, even if the samples look like the name of a chunk.
+    piped.size = 400;
+    let mut recording = open(&piped);
+    let (pairs, fault) = drain(&mut recording);
+    assert_eq!(pairs.len(), 100);
+    assert!(message(fault).contains("promises 100 sample pairs, but more follow"));
+}
+
+#[test]
+fn samples_that_look_like_the_name_of_a_chunk_are_told() {
+    let mut unfinished = wav(format(1, 2, 16), b"9B.ugT3!2345678901234567");
+    unfinished.size = 0;
+    unfinished.riff = unfinished.bytes().len() as u32 - 8;
+    assert!(
+        unfinished
+            .fault()
+            .contains("promises 0 sample pairs, but more follow")
+    );
 }

@@ -172,6 +172,35 @@ fn a_line_whose_time_is_wrong_is_left_out_and_the_next_are_read() {
 }
 
 #[test]
+fn a_column_that_counts_the_samples_shows_which_are_missing() {
+    let text = |names: &str, count: &dyn Fn(u32) -> u32| -> String {
+        let lines = (0..1000).map(|k| format!("{},1,2\n", count(k)));
+        format!("{names}\n{}", lines.collect::<String>())
+    };
+    let gap = |k: u32| k + 300 * u32::from(k >= 500);
+    for names in ["index,c,d", "n,x,y", ",c,d", "Sample,ADC1,ADC2"] {
+        let (pairs, fault) = bad(&text(names, &gap));
+        let expected = "a.csv:502: 300 samples are lost before this line (the count of samples goes from 499 to 800)";
+        assert!(
+            pairs == 1000 && fault.starts_with(expected),
+            "{names}: {fault}"
+        );
+        // It gives no rate, and no time.
+        let (_directory, path) = file("a.csv", text(names, &gap).as_bytes());
+        let recording = Recording::open(&path, &OpenOptions::default()).unwrap();
+        assert_eq!(
+            (recording.opened.sample_rate, recording.opened.start),
+            (None, 0.0)
+        );
+    }
+    // One that begins anew or counts something else does not.
+    for count in [|k| k % 600, |k| k / 8, |k| 7 * k, |_| 0, |k| k * k] {
+        let (pairs, fault) = bad(&text("n,c,d", &count));
+        assert!(pairs == 1000 && fault.is_empty(), "{fault}");
+    }
+}
+
+#[test]
 fn samples_at_uneven_times_are_refused() {
     let time = |k: u32| f64::from(k) + [0.0, 0.02, -0.02, 0.005, 0.0, 0.0][k as usize % 6];
     let text: String = (0..10_000)

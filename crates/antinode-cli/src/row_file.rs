@@ -22,6 +22,11 @@ const MAX_ABOVE_TABLE: usize = 4;
 /// Separators of fields: spreadsheets write a semicolon if their decimal mark is a comma, and a tab in files of text.
 const MARKS: [u8; 3] = *b",;\t";
 
+/// The column of times, which all rows have.
+const TIME: &str = "time_s";
+/// What programs write for the flags of a clean row, which are an empty text.
+const NO_FLAGS: [&str; 5] = ["", "nan", "null", "none", "na"];
+
 /// The keys that end what is typed, and their verb.
 const END_OF_INPUT: &str = if cfg!(windows) {
     "Ctrl-Z and Enter end"
@@ -148,6 +153,9 @@ impl RowFile {
             };
             // Files that were joined contain their headers, which are no rows.
             if !more || self.record != self.header {
+                if more && self.is_of_another_form() {
+                    return Err(self.joined());
+                }
                 return Ok(more.then_some(&self.record));
             }
         }
@@ -164,6 +172,21 @@ impl RowFile {
         ))
     }
 
+    /// Whether this line is a header with other columns, or a row in the other form.
+    fn is_of_another_form(&self) -> bool {
+        let first = self.record.get(0).unwrap_or_default();
+        first.starts_with('{') || self.record.iter().any(|field| field == TIME)
+    }
+
+    /// The failure if rows of another form follow.
+    fn joined(&self) -> Failure {
+        Failure::Fault(format!(
+            "{}, line {}: rows with other columns, or in another form, begin here; give each of the files that were joined on its own",
+            self.name,
+            self.lines().number
+        ))
+    }
+
     fn lines(&self) -> &Source {
         match &self.records {
             Records::Fields(reader) => reader.get_ref(),
@@ -173,6 +196,9 @@ impl RowFile {
 
     fn unreadable(&self, error: &csv::Error) -> Failure {
         let line = self.lines().number;
+        if self.is_of_another_form() {
+            return self.joined();
+        }
         match (&self.records, error.kind()) {
             (Records::Objects(_), ErrorKind::Io(fault)) => no_object(&self.name, line, fault),
             _ => unreadable(&self.name, line, error),
@@ -194,7 +220,7 @@ fn head(source: &mut impl BufRead) -> io::Result<(Vec<u8>, usize)> {
         if is_line && is_skipped(&head[begun..]) {
             continue;
         }
-        if !holds(&head[begun..], "time_s") {
+        if !holds(&head[begun..], TIME) {
             for _ in 0..MAX_ABOVE_TABLE {
                 line(&mut head)?;
             }
@@ -225,10 +251,19 @@ pub fn number(row: &StringRecord, place: usize) -> Option<f64> {
     number.or_else(|| text.replacen(',', ".", 1).parse().ok())
 }
 
-/// The flags that a row's column of flags names; unknown names are ignored.
-pub fn flags(column: &str) -> Flags {
-    let flags = column.split('+').filter_map(Flags::from_name);
-    flags.fold(Flags::empty(), Flags::with)
+/// The flags that a row's column of flags names.
+pub fn flags(row: &StringRecord, place: usize) -> Result<Flags, Unusable> {
+    let names = row[place].trim();
+    if NO_FLAGS.iter().any(|none| none.eq_ignore_ascii_case(names)) {
+        return Ok(Flags::empty());
+    }
+    let flags = names.split('+').map(|name| Flags::from_name(name.trim()));
+    let mut all = Flags::empty();
+    for flag in flags {
+        let needed = "names of flags, joined by `+`";
+        all = all.with(flag.ok_or(Unusable { place, needed })?);
+    }
+    Ok(all)
 }
 
 /// The failure if a file holds no rows, or one of its lines is none.

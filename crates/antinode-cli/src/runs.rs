@@ -37,8 +37,8 @@ pub struct Runs {
     pub runs: Vec<Run>,
     /// Rows read within the times asked for, including flagged ones.
     pub rows: usize,
-    /// Names of the recordings that the rows are of, those without a run included.
-    recordings: Vec<String>,
+    /// The recordings that the rows are of, those without a run included, in the order of `runs`.
+    recordings: Vec<Found>,
     /// The first and the last time in the rows, s, and the times asked for.
     span: Option<[f64; 2]>,
     asked: Range<f64>,
@@ -52,6 +52,17 @@ pub struct Runs {
     max_turn: f64,
     /// Flags of a row that end a run.
     breaks: Flags,
+}
+
+/// A recording in a file of rows.
+#[derive(Debug)]
+struct Found {
+    /// Name of the file of rows.
+    input: String,
+    /// Name of the recording.
+    name: String,
+    /// Number of its runs.
+    runs: usize,
 }
 
 impl Runs {
@@ -139,16 +150,27 @@ impl Runs {
         })
     }
 
-    /// The runs of each recording, which may be none, by its name, without the notes on all of them.
+    /// The runs of each recording, which may be none, by its name, without the notes on all of them. Recordings of the same name are
+    /// distinguished by the files of their rows.
     pub fn by_recording(self) -> Vec<(String, Self)> {
-        let each = self.recordings.into_iter();
-        let mut each: Vec<_> = each.map(|name| (name, Self::default())).collect();
-        for run in self.runs {
-            if let Some((_, of)) = each.iter_mut().find(|(name, _)| *name == run.file) {
-                of.runs.push(run);
-            }
-        }
-        each
+        let recordings = &self.recordings;
+        let mut runs = self.runs.into_iter();
+        let each = recordings.iter().map(|found| {
+            let same = recordings.iter().filter(|other| other.name == found.name);
+            let name = match same.count() {
+                1 => found.name.clone(),
+                _ => format!("{}: {}", found.input, found.name),
+            };
+            let runs = runs.by_ref().take(found.runs).collect();
+            (
+                name,
+                Self {
+                    runs,
+                    ..Self::default()
+                },
+            )
+        });
+        each.collect()
     }
 
     /// Number of rows in runs.
@@ -200,7 +222,6 @@ impl Runs {
         let places = Places::of(&rows)?;
         let flags = rows.needed("flags")?;
         let file = rows.place("file");
-
         let mut recordings: Vec<Recording> = Vec::new();
         let mut current = 0;
         while let Some(record) = rows.next()? {
@@ -216,8 +237,11 @@ impl Runs {
             let from = file.map_or("", |file| &record[file]);
             let is_its = |one: &Recording| one.file == from;
             current = recording_of(&mut recordings, current, is_its, || Recording::new(from));
-            if !record[flags].is_empty() {
-                let flags = row_file::flags(&record[flags]);
+            let flags = match row_file::flags(record, flags) {
+                Ok(flags) => flags,
+                Err(unusable) => return Err(rows.unusable(unusable)),
+            };
+            if !flags.is_empty() {
                 recordings[current].leave_out(flags, self.breaks, places.way(record));
                 continue;
             }
@@ -230,9 +254,11 @@ impl Runs {
         }
         for mut recording in recordings {
             recording.end();
-            if !self.recordings.contains(&recording.file) {
-                self.recordings.push(recording.file.clone());
-            }
+            self.recordings.push(Found {
+                input: rows.name().to_owned(),
+                name: recording.file.clone(),
+                runs: recording.runs.len(),
+            });
             self.overlapping += recording.overlapping;
             self.backward += recording.backward;
             self.runs.append(&mut recording.runs);

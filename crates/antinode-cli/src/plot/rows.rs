@@ -140,17 +140,18 @@ fn parse(
         }
     }
     let samples = samples.map_or(Ok(1.0), number)?;
-    let names = &record[flags];
-    let flags = row_file::flags(names);
+    let flags = row_file::flags(record, flags)?;
     Ok(Row {
         time: number(time)?,
         values,
         deviations,
         samples: samples as u32,
-        trust: match names {
-            "" => Trust::Clean,
-            _ if flags.contains(Flags::LOST) => Trust::Lost,
-            _ => Trust::Flagged,
+        trust: if flags.is_empty() {
+            Trust::Clean
+        } else if flags.contains(Flags::LOST) {
+            Trust::Lost
+        } else {
+            Trust::Flagged
         },
         // The pattern may have turned unseen.
         begins: flags.contains(Flags::REACQUIRED),

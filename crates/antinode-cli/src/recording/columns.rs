@@ -211,6 +211,32 @@ impl FirstLine<'_> {
         }
     }
 
+    /// Fails if the names of S_C and S_D are given twice among these columns, or are those of two channels of four.
+    fn check_unique(&self, columns: &[usize]) -> Result<(), String> {
+        let names = self.names.unwrap_or_default();
+        let is_signal = |place: usize| matches!(role(&names[place]), Some(1 | 2));
+        let is_other = |place: usize| {
+            let name = bare_name(&names[place]);
+            OTHER_CHANNELS.contains(&name.trim_start_matches("channel"))
+        };
+        let others = columns.iter().filter(|&&place| is_other(place)).count();
+        let may_be =
+            |place: usize| is_signal(place) || others == OTHER_CHANNELS.len() && is_other(place);
+        let found: Vec<String> = columns
+            .iter()
+            .filter(|&&place| may_be(place))
+            .map(|&place| format!("`{}` ({})", names[place], place + 1))
+            .collect();
+        if found.len() == 2 {
+            return Ok(());
+        }
+        Err(format!(
+            "S_C and S_D may be any of the columns {}; choose two of them by their numbers, with --columns TIME,C,D, or C,D if there is no \
+             time",
+            found.join(", ")
+        ))
+    }
+
     /// The places that the names or the number of these columns suggest.
     fn among(&self, columns: &[usize]) -> Result<Places, String> {
         let role = |place: usize| match place {
@@ -225,6 +251,7 @@ impl FirstLine<'_> {
         let time = time.filter(|&time| places().any(|place| name(place) != name(time)));
         // Names in another order than usual must not swap the signals.
         if c.is_some() && d.is_some() {
+            self.check_unique(columns)?;
             let unnamed = places().find(|&place| role(place).is_none());
             let index = |place: &usize| self.names.is_some_and(|names| is_index(&names[*place]));
             let other =
@@ -262,6 +289,9 @@ impl FirstLine<'_> {
     }
 }
 
+/// The names of the first two of four channels, the others being `C` and `D`.
+const OTHER_CHANNELS: [&str; 2] = ["a", "b"];
+
 /// What is wrong with so many columns, which cannot be understood.
 fn wrong_count(columns: usize, are_words: bool) -> String {
     let remedy = match columns {
@@ -294,15 +324,18 @@ fn is_of_time(unit: &str) -> bool {
     matches!(time_exponent(unit), Some(Some(_)))
 }
 
+/// A name's letters and digits, in lower case, without what follows in brackets.
+fn bare_name(name: &str) -> String {
+    let bare = name.split(['[', '(', '/']).next().unwrap_or_default();
+    let bare = bare.to_lowercase();
+    bare.chars()
+        .filter(|letter| letter.is_alphanumeric())
+        .collect()
+}
+
 /// What a column holds by its name, as its place in [`ROLES`].
 fn role(name: &str) -> Option<usize> {
-    let bare = name.split(['[', '(', '/']).next().unwrap_or_default();
-    let bare: String = bare
-        .to_lowercase()
-        .chars()
-        .filter(|letter| letter.is_alphanumeric())
-        .collect();
-    match bare.as_str() {
+    match bare_name(name).as_str() {
         "t" | "time" | "times" | "ts" | "s" | "sec" | "second" | "seconds" | "timestamp"
         | "timems" | "timeus" | "timens" | "tms" | "tus" | "tns" | "millis" | "micros" => {
             Some(TIME)

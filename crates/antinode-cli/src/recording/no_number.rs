@@ -38,6 +38,15 @@ const WORDS: [&str; 32] = [
     "clipped",
 ];
 
+/// The value that a number from an instrument stands for: SCPI has numbers in place of NaN and the infinities.
+pub(super) fn meant(value: f32) -> f32 {
+    match value.abs() {
+        9.91e37 => f32::NAN,
+        9.9e37 => f32::INFINITY.copysign(value),
+        _ => value,
+    }
+}
+
 /// The value of a field that stands for a sample without a number, NaN or an infinity; none for any other field.
 pub(super) fn stand_in(field: &[u8]) -> Option<f32> {
     let text = str::from_utf8(field).ok()?;
@@ -63,6 +72,15 @@ pub(super) fn stand_in(field: &[u8]) -> Option<f32> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn numbers_of_scpi_stand_for_others() {
+        let read = |text: &str| meant(number(text.as_bytes(), b',').unwrap());
+        assert!(read("9.91E+37").is_nan());
+        assert_eq!(read("9.9E37"), f32::INFINITY);
+        assert_eq!(read("-9.9000E+37"), f32::NEG_INFINITY);
+        assert_eq!([read("-0.5"), read("1e38")], [-0.5, 1e38]);
+    }
 
     #[test]
     fn stand_ins_for_a_sample_are_known() {

@@ -153,3 +153,32 @@ fn a_recording_without_a_resonator_costs_the_others_nothing() {
     let written = fs::read_to_string(here.join("batch.csv")).unwrap();
     assert_eq!(lines(&written).len(), 3, "{written}");
 }
+
+#[test]
+fn recordings_of_one_name_in_two_files_of_rows_are_two() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for (gyro, frequency) in [("g1", 5332), ("g2", 5378)] {
+        fs::create_dir(here.join(gyro)).unwrap();
+        let made = format!(
+            "simulate -o ring.wav --seconds 2 --noise 0.002 --frequency {frequency} --decay-rate 0.2"
+        );
+        done(&here.join(gyro), &made);
+        done(
+            &here.join(gyro),
+            "identify ring.wav --periods 50 -o rows.csv",
+        );
+    }
+    let found = done(
+        here,
+        "resonator --each --output csv g1/rows.csv g2/rows.csv",
+    );
+    let lines = lines(&found.out);
+    for (name, frequency) in [
+        ("g1/rows.csv: ring.wav", 5332.0),
+        ("g2/rows.csv: ring.wav", 5378.0),
+    ] {
+        let found: f64 = lines[name]["frequency_hz"].parse().unwrap();
+        assert!((found - frequency).abs() < 0.01, "{name}: {found}");
+    }
+}

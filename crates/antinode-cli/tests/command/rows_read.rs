@@ -104,6 +104,69 @@ fn a_field_that_cannot_be_used_is_named() {
 }
 
 #[test]
+fn flags_may_be_missing_as_programs_write_it_but_must_be_known() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let text = ring_down(here);
+    let expected = resonator(here, &text[..]);
+    let at = text
+        .lines()
+        .next()
+        .unwrap()
+        .split(',')
+        .position(|name| name == "flags");
+    let with = |flags: &str| {
+        let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+        for line in &mut lines[1..] {
+            let mut fields: Vec<_> = line.split(',').collect();
+            fields[at.unwrap()] = flags;
+            *line = fields.join(",");
+        }
+        lines.join("\n") + "\n"
+    };
+    for flags in ["NaN", "null", " ", "None"] {
+        assert_eq!(resonator(here, with(flags)), expected, "{flags}");
+    }
+    for command in ["resonator -", "calibrate -", "plot - -o a.svg"] {
+        let found = run_with(here, command, with("misfit+odd").into());
+        let told = "error: standard input, line 2: flags is `misfit+odd`, not names of flags, joined by `+`; remove the line\n";
+        assert_eq!((found.code, &found.err[..]), (1, told), "{command}");
+    }
+}
+
+#[test]
+fn rows_of_another_form_that_follow_are_refused() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let text = ring_down(here);
+    let count = text.lines().count();
+    let swapped: Vec<String> = text
+        .lines()
+        .map(|line| {
+            let mut fields: Vec<_> = line.split(',').collect();
+            fields.reverse();
+            fields.join(",")
+        })
+        .collect();
+    let fewer = text.replace(",flags", "");
+    let json = done(here, "identify it.wav --periods 50 --output jsonl").out;
+    for other in [swapped.join("\n"), fewer, json] {
+        for command in ["resonator -", "plot - -o a.svg"] {
+            let found = run_with(here, command, (text.clone() + &other).into());
+            let told = format!(
+                "error: standard input, line {}: rows with other columns, or in another form, begin here; ",
+                count + 1
+            );
+            assert!(
+                found.code == 1 && found.err.starts_with(&told),
+                "{}",
+                found.err
+            );
+        }
+    }
+}
+
+#[test]
 fn json_lines_are_read_as_csv_is() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();

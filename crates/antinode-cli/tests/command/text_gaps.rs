@@ -57,6 +57,28 @@ fn a_missing_line_costs_the_rows_about_it() {
 }
 
 #[test]
+fn a_line_whose_time_alone_is_wrong_costs_the_rows_about_it() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let (lines, expected) = whole(here, 20_000);
+    for time in ["0.08990", "0.090035", "9.9E37"] {
+        let mut lines = lines.clone();
+        lines[9_001] = format!("{time},0.1,0.1");
+        fs::write(here.join("a.csv"), lines.join("\n")).unwrap();
+        let told = [
+            "a.csv:9002:1: the time `",
+            "` does not follow that of the line before, but the lines behind do: the line is left out",
+        ];
+        go_on(&fault(here, "a.csv", Vec::new(), &told), &expected);
+        let told = ["standard input:9002:1: the time `"];
+        go_on(
+            &fault(here, "- --rate 100000", lines.join("\n").into(), &told),
+            &expected,
+        );
+    }
+}
+
+#[test]
 fn all_that_is_missing_is_counted() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
@@ -106,13 +128,16 @@ fn a_missing_line_and_a_bad_sample_are_both_reported() {
 }
 
 #[test]
-fn time_that_goes_back_or_steps_unevenly_still_ends_the_rows() {
+fn time_that_stays_back_or_between_samples_ends_the_rows() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let (lines, _) = whole(here, 20_000);
-    for (time, told) in [("0.08990", "must increase"), ("0.090035", "time steps by")] {
+    for (shift, told) in [(-1e-3, "must increase"), (3.5e-5, "time steps by")] {
         let mut lines = lines.clone();
-        lines[9_001] = format!("{time},0.1,0.1");
+        for (at, line) in lines.iter_mut().enumerate().skip(9_001) {
+            let (_, signals) = line.split_once(',').unwrap();
+            *line = format!("{:.6},{signals}", (at - 1) as f64 * 1e-5 + shift);
+        }
         fs::write(here.join("a.csv"), lines.join("\n")).unwrap();
         let found = fault(here, "a.csv", Vec::new(), &["a.csv:9002: ", told]);
         assert!((45..49).contains(&found.len()), "{}", found.len());

@@ -47,6 +47,27 @@ fn names_decide_and_else_the_order() {
 }
 
 #[test]
+fn names_that_may_be_of_either_signal_are_not_guessed() {
+    for header in [
+        "time,C,D,c,d",
+        "t,left,right,c,d",
+        "A,B,C,D",
+        "t,Channel A,Channel B,Channel C,Channel D",
+    ] {
+        assert!(places(header, None).is_err(), "{header}");
+    }
+    let fault = places("t,A,B,C,D", None).unwrap_err();
+    assert!(fault.starts_with(
+        "S_C and S_D may be any of the columns `A` (2), `B` (3), `C` (4), `D` (5); choose"
+    ));
+    assert_eq!(
+        places("t,A,B,C,D", Some("1,4,5")),
+        Ok([Some(0), Some(3), Some(4)])
+    );
+    assert_eq!(places("t,a,c,d", None), Ok([Some(0), Some(2), Some(3)]));
+}
+
+#[test]
 fn a_count_of_lines_is_no_clock() {
     for count in ["Sample", "Index", "n", "#", "Point", "No.", ""] {
         let header = format!("{count},ADC1,ADC2");

@@ -7,7 +7,7 @@ use super::super::forms::remedy;
 use super::super::header::{Header, lossy};
 use super::super::left_out::LeftOut;
 use super::super::lines::{Line, Lines};
-use super::super::no_number::stand_in;
+use super::super::no_number::{meant, stand_in};
 use super::super::not_finite::Flaw;
 use super::super::number::number;
 use super::super::printed::Printed;
@@ -23,7 +23,7 @@ const MIN_GARBLED_BEGINNING: u64 = 2;
 /// Lines that are read ahead of a time that does not follow the last one, to see whether it alone is wrong: first a few, and then as many
 /// as are sent twice at most.
 const FEW_AHEAD: usize = 3;
-const MOST_AHEAD: usize = 256;
+const MOST_AHEAD: usize = 32;
 
 /// Lines whose time may lie between samples by accident: so many, and one more for each so many lines read.
 const MIN_ODD: u64 = 4;
@@ -195,7 +195,7 @@ impl Rows {
         let (mut odd, mut garbled) = (None, None);
         for (channel, value) in pair.iter_mut().enumerate() {
             let (role, text) = (channel + 1, texts[channel + 1]);
-            let read = number::<f32>(text, self.lines.separator);
+            let read = number(text, self.lines.separator).map(meant);
             if let Some(read) = read.or_else(|| stand_in(text)) {
                 *value = read / self.header.divisors[channel];
             } else {

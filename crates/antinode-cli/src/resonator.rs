@@ -185,7 +185,7 @@ fn results(mut rows: Runs, name: &str) -> Result<(Results, Vec<Run>), Failure> {
     })?;
     let results = Results {
         listed: informing(&rows.runs, &found),
-        frequency: frequency(&rows, &found),
+        frequency: frequency(&mut rows, &found),
         rows,
         found,
     };

@@ -11,6 +11,8 @@ use crate::runs::{Row, Runs};
 
 /// Stretches per run to aim at, if it has that many rows.
 const STRETCHES: usize = 100;
+/// Difference of the mean by phases from that of the rows' own frequencies, in deviations of one row, that no error of rows explains.
+const MAX_CONTRADICTION: f64 = 4.0;
 
 /// The mean frequency.
 pub struct Frequency {
@@ -24,6 +26,36 @@ pub struct Frequency {
     pub means: Vec<Measured>,
     /// Its drift in each run, Hz/s.
     pub drifts: Vec<Measured>,
+    /// The mean by the phases and times of rows, Hz, if rows' own frequencies contradict it; all else is without phases then.
+    pub contradicted: Option<f64>,
+}
+
+/// The mean frequency by the phases of rows, or without these if they contradict the rows' own frequencies, as where times are rounded.
+pub fn frequency(rows: &mut Runs, found: &Found) -> Frequency {
+    let by_phases = by_stretches(rows, found);
+    let (mean, _) = by_phases.mean;
+    if !is_contradicted(mean, rows) {
+        return by_phases;
+    }
+    let all = rows.runs.iter_mut().flat_map(|run| &mut run.rows);
+    all.for_each(|row| row.phase = None);
+    Frequency {
+        contradicted: Some(mean),
+        ..by_stretches(rows, found)
+    }
+}
+
+/// Whether rows' own frequencies differ from this mean, Hz, by more than any turn or split explains.
+fn is_contradicted(mean: f64, rows: &Runs) -> bool {
+    let (mut count, mut weights, mut sum) = (0.0, 0.0, 0.0);
+    for row in rows.runs.iter().flat_map(|run| &run.rows) {
+        let weight = row.frequency_deviation.powi(-2);
+        count += 1.0;
+        weights += weight;
+        sum += weight * (row.frequency - mean);
+    }
+    let of_row = (count / weights).sqrt();
+    (sum / weights).abs() > MAX_CONTRADICTION * of_row
 }
 
 /// The mean frequency of stretches of rows, weighted by their variances. Its deviation is wider if stretches scatter by more than theirs,
@@ -31,7 +63,7 @@ pub struct Frequency {
 ///
 /// A row has the frequency along its pattern: the part due to the splits is subtracted, if they are determined. With quadrature, a turning
 /// pattern looks like another frequency, and a row assumes that it turns as in the rows before: a change of that adds to its deviation.
-pub fn frequency(rows: &Runs, found: &Found) -> Frequency {
+fn by_stretches(rows: &Runs, found: &Found) -> Frequency {
     let mut all = rows.runs.iter().flat_map(|run| &run.rows);
     let are_weighted = all.all(|row| row.frequency_deviation.is_finite());
     let mut moved = found.frequency_moved(&rows.runs).into_iter();
@@ -87,6 +119,7 @@ pub fn frequency(rows: &Runs, found: &Found) -> Frequency {
         moves,
         means: means.collect(),
         drifts: drifts.iter().map(|drift| drift.slope).collect(),
+        contradicted: None,
         by_energy: if is_along {
             by_energy(&runs, beside, are_weighted, by_turning(found))
         } else {

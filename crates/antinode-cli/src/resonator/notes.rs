@@ -174,6 +174,13 @@ fn note_others(out: &mut impl Write, frequency: &Frequency) -> io::Result<()> {
 
 /// Warns if the frequency moves, and says what is known of the cause.
 fn note_frequency(out: &mut impl Write, frequency: &Frequency) -> io::Result<()> {
+    if let Some(by_phases) = frequency.contradicted {
+        writeln!(
+            out,
+            "warning: the phases of rows at their times give {by_phases:.3} Hz, which the rows' own frequencies contradict, as if times had \
+             been rounded: phases are not used; give the rows with all the digits that `antinode identify` prints"
+        )?;
+    }
     if let Some(moves) = frequency.moves {
         let with = match frequency.by_energy {
             ByEnergy::Chance => String::new(),

@@ -305,3 +305,44 @@ fn a_recording_in_windows_of_two_lengths_is_reported() {
         assert!(!is_told(long + &rows(&other, "--periods 50")));
     }
 }
+
+#[test]
+fn times_that_were_rounded_do_not_falsify_the_frequency() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    done(
+        here,
+        "simulate -o ring.wav --seconds 5 --noise 0.002 --decay-rate 0.2 --frequency 5332",
+    );
+    done(here, "identify ring.wav --periods 100 -o rows.csv");
+    let text = fs::read_to_string(here.join("rows.csv")).unwrap();
+    for digits in [2, 3, 6] {
+        let lines = text.lines().enumerate().map(|(at, line)| {
+            let (time, rest) = line.split_once(',').unwrap();
+            let time = time
+                .parse::<f64>()
+                .map_or(time.to_owned(), |time| format!("{time:.digits$}"));
+            assert_eq!(at == 0, time == "time_s");
+            format!("{time},{rest}\n")
+        });
+        let rounded: String = lines.collect();
+        let run = run_with(here, "resonator - --output csv", rounded.into());
+        let told = run
+            .err
+            .contains("warning: the phases of rows at their times give ");
+        assert_eq!(told, digits < 4, "{digits}: {}", run.err);
+        let line = run.out.lines().find(|line| line.contains("frequency_hz"));
+        let numbers = line
+            .unwrap()
+            .split(',')
+            .filter_map(|field| field.parse::<f64>().ok());
+        let numbers: Vec<f64> = numbers.filter(|number| number.fract() != 0.0).collect();
+        let [found, std, ..] = numbers[..] else {
+            panic!("{line:?}")
+        };
+        assert!(
+            (found - 5332.0).abs() < 4.0 * std && std < 0.05,
+            "{digits}: {found} {std}"
+        );
+    }
+}

@@ -36,9 +36,9 @@
 //  - States are independent of each other.
 //
 // Cost of the interrupt:
-//  - Instructions a sample pair on a Cortex-M4: 200 to 460 during the search for a period, up to 600 over a half-buffer of a signal that
+//  - Instructions a sample pair on a Cortex-M4: 200 to 460 during the search for a period, up to 700 over a half-buffer of a signal that
 //    looks like a wave but is not, such as two tones; afterwards 10 to 80, or 70 to 180 with _push. These are means: a single _push may
-//    take 1900 during the search, and 1100 (fixed) or 2000 (float) afterwards; half-buffers never take that many a pair.
+//    take 2000 during the search, and 1150 (fixed) or 2150 (float) afterwards; half-buffers never take that many a pair.
 //  - Stack: on a Cortex-M4 up to 0.8 KiB, or 1.0 KiB (fixed) or 1.3 KiB (float) with _push_block; on a Cortex-M3 or M0 up to 1.2 KiB,
 //    or 1.5 or 1.8 KiB with _push_block.
 //  - Floating-point registers: if the core has them, the search uses them, even in fixed point. What saves them for threads must save

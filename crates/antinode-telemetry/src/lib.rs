@@ -12,6 +12,9 @@
 //! | CRC | 4 | CRC-32 of header, number and body, that of Ethernet and zlib, lowest byte first |
 //! | `00` | 1 | delimiter |
 //!
+//! In a body, fields follow each other in the order in which the types of this crate and of [`antinode`] declare them, an enum is the index
+//! of its variant, and [`Flags`](antinode::Flags) are the number that their `bits` give.
+//!
 //! Noise that leaves the framing intact passes the CRC once in 2³² times, as one wrong bit of a COBS code is many wrong bits of the data.
 //! A frame that is cut, too long, damaged or no frame at all is dropped and reported as [`Damage`]; the next delimiter starts afresh, so
 //! noise costs only the frames that it touches. Floating-point values are sent bit for bit.

@@ -40,6 +40,9 @@ impl Reporter {
     }
 }
 
+/// Reports back, up to which a report is one that comes again rather than one behind a long gap.
+const MAX_REPEATED: u16 = 256;
+
 /// The PC's end: it takes the device's bytes as they arrive, gives reports, and counts those that are lost.
 #[derive(Debug, Default)]
 pub struct Receiver {
@@ -76,11 +79,13 @@ impl Receiver {
                     }
                     _ => self.next,
                 };
-                if let Some(next) = next {
-                    self.lost += u64::from(number.wrapping_sub(next));
-                }
-                self.next = Some(number.wrapping_add(1));
                 self.reports += 1;
+                let missing = next.map_or(0, |next| number.wrapping_sub(next));
+                // One that comes again, as on a line with an echo.
+                if missing <= u16::MAX - MAX_REPEATED {
+                    self.lost += u64::from(missing);
+                    self.next = Some(number.wrapping_add(1));
+                }
                 Ok(report)
             }
             Err(damage) => {
@@ -103,7 +108,8 @@ impl Receiver {
     }
 
     /// Count of missing report numbers: reports damaged on the line, and those that the device had no room to send. Numbers are modulo
-    /// 65 536, so that multiples of 65 536 missing in a row are not counted; nor are those just before a restart of the device.
+    /// 65 536, so that multiples of 65 536 missing in a row, and up to 256 less, are not counted; nor are those just before a restart of the
+    /// device. A report that comes again within 256 is none.
     pub fn lost(&self) -> u64 {
         self.lost
     }
@@ -136,6 +142,26 @@ mod tests {
             }
         }
         assert_eq!((receiver.reports(), receiver.lost()), (17, 3));
+    }
+
+    #[test]
+    fn reports_that_come_again_are_not_lost() {
+        let mut reporter = Reporter { next: 65_500 };
+        let mut receiver = Receiver::new();
+        let mut sent: [([u8; MAX_FRAME], usize); 300] = [([0; MAX_FRAME], 0); 300];
+        for (buffer, length) in &mut sent {
+            let bytes = reporter.frame(&Report::State(State::Tracking), buffer);
+            *length = bytes.expect("room").len();
+        }
+        // An echo, a block sent twice, and a report missing behind it.
+        let order = (0..290).chain([289]).chain(40..290).chain([291, 292]);
+        for index in order {
+            let (buffer, length) = &sent[index];
+            for &byte in &buffer[..*length] {
+                receiver.push(byte);
+            }
+        }
+        assert_eq!((receiver.reports(), receiver.lost()), (543, 1));
     }
 
     #[test]

@@ -215,8 +215,8 @@ impl<S: Sample, const N: usize> Front<S, N> {
         self.stage = self.known.map_or(Stage::Searching, Stage::Found);
     }
 
-    /// True while a period is searched for: never if the frequency is known; for ever if the period has fewer than 4 samples, or more than
-    /// 200 or `N`.
+    /// True while a period is searched for: never if the frequency is known; for ever if the period has fewer than 3.8 samples, or more
+    /// than 212 or `N`. Periods of 4 to 200 samples are found.
     pub fn is_searching(&self) -> bool {
         matches!(self.stage, Stage::Searching)
     }

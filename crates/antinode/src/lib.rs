@@ -109,8 +109,9 @@
 //! | [`Block`], each in the queue | 72 | 128 | 128 |
 //! | [`Tracker`], with `BLOCKS` the length of its ring | 696 + 68 `BLOCKS` | the same | the same |
 //!
-//! On a Cortex-M4F [`Tracker::push`] takes 1.1 KB of stack, and 11 000 cycles where it completes a window of 10 periods: five times as many
-//! for the first window of a wave, and seven times for each window of noise if the frequency is known. [`Front::extend`] takes 0.4 KB of
+//! On a Cortex-M4F [`Tracker::push`] takes 1.1 KB of stack, and 11 000 cycles where it completes a window of 10 periods of 18.75 samples:
+//! five times as many for the first window of a wave, and seven times for each window of noise if the frequency is known. At 190 samples a
+//! period it takes 2.5 times as many, and up to 15 and 50 times in these cases. [`Front::extend`] takes 0.4 KB of
 //! stack. The repository's `firmware` is a whole program, with RTIC.
 //!
 //! [`Front::UNSET`], [`Tracker::UNSET`] and [`Identifier::UNSET`] are all zeros: statics initialised with them, for example in a

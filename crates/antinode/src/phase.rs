@@ -76,9 +76,9 @@ impl Phase {
             .map(|value| ((i64::from(value) * i64::from(scale) + i64::from(ONE / 2)) >> 30) as i16);
         match quarter & 3 {
             0 => [cosine, sine],
-            1 => [-sine, cosine],
-            2 => [-cosine, -sine],
-            _ => [sine, -cosine],
+            1 => [sine.wrapping_neg(), cosine],
+            2 => [cosine.wrapping_neg(), sine.wrapping_neg()],
+            _ => [sine, cosine.wrapping_neg()],
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Continuity from window to window: the angle over turns and overlap, and waves tracked for minutes.
 
-use antinode::{Flags, Settings, SettingsError};
+use antinode::{Flags, Settings, SettingsError, Tracker};
 use antinode_sim::{Flaws, Wave};
 use host_tests::score::{errors, stated};
 use host_tests::{
@@ -63,6 +63,22 @@ fn the_angle_starts_near_the_start_angle() {
         );
         assert!(angle_error(found, 0.3).abs() < 1e-5);
     }
+}
+
+#[test]
+fn a_change_of_settings_leaves_the_start_angle() {
+    let old = Settings {
+        start_angle: 3.0,
+        ..windows(10)
+    };
+    let mut tracker = Tracker::<16>::new(old).unwrap();
+    let new = Settings {
+        start_angle: 9.0,
+        ..windows(5)
+    };
+    tracker.change(new).unwrap();
+    let found = tracker.settings();
+    assert_eq!((found.start_angle, found.periods), (3.0, 5));
 }
 
 #[test]

@@ -49,6 +49,8 @@ fn a_first_window_with_a_part_of_the_wave_is_flagged_or_within_its_deviations() 
                 "{name}, {periods} periods, begins: {begins}: {clean} of 400 without a flag, {wrong} wrong"
             );
             assert!(wrong < 4, "{name}, {periods} periods: {wrong}");
+            // In longer windows hardly any part is as good as a wave.
+            assert!(clean > 20 || periods > 2, "{name}: {clean}");
         }
     }
 }

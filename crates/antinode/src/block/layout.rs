@@ -9,7 +9,7 @@ pub struct Layout {
     pub step: PhaseStep,
     /// Sample pairs in a block, 1 to the capacity of the [`Demodulator`](super::Demodulator).
     pub length: u16,
-    /// The whole number that stands for a reference of one; 0 if the reference is not rounded.
+    /// The whole number that stands for a reference of one, 1 to 32 767; 0 if the reference is not rounded.
     pub scale: u16,
 }
 

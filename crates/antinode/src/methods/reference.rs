@@ -71,7 +71,9 @@ impl Reference {
                 },
                 // The estimate's phase is that at the middle of the window.
                 phase: f64::from(estimate.phase) + 0.5 * omega * (samples - 1.0),
-            },
+            }
+            // Reduced to half a turn.
+            .near(estimate.angle),
             deviations: deviations.map(|x| f64::from(x.max(f32::MIN_POSITIVE))),
             noise: Noise::alike(noise * noise),
             noise_uncertainty: libm::sqrt(2.0 / (6.0 * blocks - 10.0)),

@@ -156,7 +156,8 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// [`REACQUIRED`](crate::Flags::REACQUIRED) and continues the angle. [`configure`](Self::configure) begins with the start angle
     /// instead, and must come first: otherwise the angle begins at 0.
     ///
-    /// The front needs the same `sample_rate`, `frequency`, `periods`, `hop`, `hum`, `coloured`, `detection` and `watch`; if it is
+    /// The front needs the same `sample_rate`, `frequency`, `periods`, `hop`, `detection` and `watch`, and of `hum` and `coloured` for blocks
+    /// as long as these like best in windows of few samples, which makes errors up to a tenth smaller; if it is
     /// configured anew, call [`search`](Self::search) here too, [in the right order](crate#on-a-microcontroller), so that blocks from
     /// before are left out.
     ///

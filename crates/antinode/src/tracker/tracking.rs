@@ -96,7 +96,10 @@ impl Tracking {
 
     /// Changes all settings but the start angle, which have been checked.
     pub(super) fn change(&mut self, settings: Settings) {
-        self.settings = settings;
+        self.settings = Settings {
+            start_angle: self.settings.start_angle,
+            ..settings
+        };
         let found = self.found;
         self.forget();
         // The wave itself is still there.

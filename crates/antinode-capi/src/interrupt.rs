@@ -103,10 +103,6 @@ impl<S: Slow> Interrupt<S> {
                 // SAFETY: the caller is the only producer.
                 unsafe { shared.queue_block(block) };
             }
-            // Only if something else has written to the state.
-            if taken == 0 {
-                break;
-            }
             pairs = pairs.get(taken..).unwrap_or(&[]);
         }
         shared.status_since(before)

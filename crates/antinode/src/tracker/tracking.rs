@@ -96,10 +96,9 @@ impl Tracking {
 
     /// Changes all settings but the start angle, which have been checked.
     pub(super) fn change(&mut self, settings: Settings) {
-        self.settings = Settings {
-            start_angle: self.settings.start_angle,
-            ..settings
-        };
+        let start_angle = self.settings.start_angle;
+        self.settings = settings;
+        self.settings.start_angle = start_angle;
         let found = self.found;
         self.forget();
         // The wave itself is still there.

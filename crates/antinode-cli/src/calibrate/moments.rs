@@ -115,7 +115,7 @@ impl Moment {
     }
 
     /// The pattern angle if the pick-offs are these, rad, modulo π/2.
-    fn angle(&self, pick_offs: &PickOffs) -> f64 {
+    pub fn angle(&self, pick_offs: &PickOffs) -> f64 {
         let [plus, minus] = waves(pick_offs.at(self.omega).correct(self.raw));
         0.25 * (minus * plus.conj()).arg()
     }

@@ -15,7 +15,8 @@ fn of_rows(mut at: impl FnMut(f64) -> f64, deviation: f64) -> Frequency {
         row.frequency_deviation = deviation;
         row.phase = None;
     }
-    frequency(&rows, &fit(&rows.runs).unwrap())
+    let found = fit(&rows.runs).unwrap();
+    frequency(&mut rows, &found)
 }
 
 #[test]

@@ -32,6 +32,7 @@ mod rows;
 mod runs;
 mod serialized;
 mod simulate;
+mod stream_file;
 mod study;
 mod tell;
 mod whole_file;

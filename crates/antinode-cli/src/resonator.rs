@@ -35,7 +35,6 @@ use crate::result_file::{self, ResultFile};
 use crate::runs::driven::{self, undriven};
 use crate::runs::{BEYOND_NOISE, MIN_ROWS, Run, Runs};
 use crate::serialized;
-use crate::whole_file::WholeFile;
 use fit::fit;
 use found::Found;
 use frequency::{Frequency, frequency};
@@ -160,7 +159,7 @@ pub fn run(options: &Resonator) -> Result<(), Failure> {
     if let Some(path) = &options.residual {
         let mut left = Vec::new();
         serialized::csv(&mut left, rests(&results).iter())?;
-        WholeFile::of(path, &left)?.finish()?;
+        result_file::write(path, &left)?;
     }
     // The result is printed already: standard error may be closed.
     let mut err = io::stderr().lock();

@@ -1,13 +1,14 @@
-//! Where a result goes: standard output, or a file that gets its name once it is complete.
+//! Where a result goes: standard output, a stream, or a file that gets its name once it is complete.
 
 use std::io::{self, Write};
 use std::path::{self, Path, PathBuf};
 
 use clap::Args;
 
-use crate::failure::Failure;
+use crate::failure::{Failure, unwritable};
 use crate::options::Format;
 use crate::recording::place;
+use crate::stream_file;
 use crate::whole_file::WholeFile;
 
 /// The file that a result is written to, if any.
@@ -41,8 +42,17 @@ impl ResultFile {
             io::stdout().lock().write_all(result)?;
             return Ok(());
         };
-        WholeFile::of(path, result)?.finish()
+        write(path, result)
     }
+}
+
+/// Writes a file of these bytes, at once or, if it is no stream, under its name once it is complete.
+pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    if stream_file::is_stream(path) {
+        let written = stream_file::open(path)?.write_all(bytes);
+        return written.map_err(|fault| unwritable(&path.display().to_string(), &fault));
+    }
+    WholeFile::of(path, bytes)?.finish()
 }
 
 /// The file that is asked for; `None` for standard output.
@@ -71,6 +81,9 @@ pub fn check(option: &str, path: &Path, rows: &[PathBuf]) -> Result<(), Failure>
             "{option}: {} has rows to be read; give the result another name",
             path.display()
         )));
+    }
+    if stream_file::is_stream(path) {
+        return stream_file::open(path).map(drop);
     }
     WholeFile::create(path).map(drop)
 }

@@ -1,14 +1,14 @@
 //! The destination of rows: standard output, a device or a pipe as they come, or a file that gets its name once it is complete.
 
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{self, BufWriter, Write};
-use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::options::Identify;
 use crate::digits::counted;
-use crate::failure::{Failure, unwritable};
+use crate::failure::Failure;
 use crate::recording::place;
+use crate::stream_file;
 use crate::tell::tell;
 use crate::whole_file::WholeFile;
 
@@ -27,8 +27,8 @@ impl Out {
         let Some(path) = options.file() else {
             return Ok((out(None), BufWriter::new(Box::new(io::stdout().lock()))));
         };
-        let (out, file, watched) = if is_stream(path) {
-            (out(None), stream(path)?, None)
+        let (out, file, watched) = if stream_file::is_stream(path) {
+            (out(None), stream_file::open(path)?, None)
         } else {
             let (whole, file) = WholeFile::create(path)?;
             let out = out(Some(whole));
@@ -93,35 +93,6 @@ pub(super) fn check_is_no_input(options: &Identify) -> Result<(), Failure> {
         )));
     }
     Ok(())
-}
-
-/// True for a device, a pipe, or an inherited descriptor: for what no finished file can replace.
-fn is_stream(path: &Path) -> bool {
-    let is_given = ["/dev/stderr", "/dev/fd", "/proc"]
-        .iter()
-        .any(|given| path.starts_with(given));
-    is_given
-        || cfg!(windows) && is_device_of_windows(path)
-        || fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir())
-}
-
-/// True for names of Windows devices, which are the same in every directory.
-fn is_device_of_windows(path: &Path) -> bool {
-    let names = ["NUL", "CON", r"\\.\NUL", r"\\.\CON"];
-    names
-        .iter()
-        .any(|name| path.as_os_str().eq_ignore_ascii_case(name))
-}
-
-/// Opens a device or a pipe, behind its present contents.
-fn stream(path: &Path) -> Result<File, Failure> {
-    // The console of Windows cannot be appended to.
-    let file = if cfg!(windows) {
-        File::options().write(true).open(path)
-    } else {
-        File::options().append(true).open(path)
-    };
-    file.map_err(|fault| unwritable(&path.display().to_string(), &fault))
 }
 
 /// A writer that repeats its first error for ever: what is still buffered would leave a hole behind what was written.

@@ -15,6 +15,8 @@ use crate::recording::{Recording, RecordingWriter, SampleFormat};
 use crate::tell::tell;
 use fitted::Fitted;
 
+/// Most pairs lost in a row that zeros stand for: 128 MB of single precision, or the gap of a time that is wrong.
+const MAX_LEFT_OUT: u64 = 1 << 24;
 /// Most pairs that wait for their row: those of the longest window.
 const MAX_WAITING: usize = LONGEST_PERIOD * (MAX_PERIODS as usize + 2);
 
@@ -123,6 +125,13 @@ impl Open {
         let waiting = usize::try_from(pairs).unwrap_or(usize::MAX);
         self.waiting.drain(..waiting.min(self.waiting.len()));
         self.written += pairs;
+        if pairs > MAX_LEFT_OUT && self.fault.is_none() {
+            self.fault = Some(Failure::Fault(format!(
+                "{}: {pairs} sample pairs in a row are lost, and the file would hold as many zeros; it is not written: give a part of the \
+                 recording by --from and --to",
+                self.writer.name()
+            )));
+        }
         for _ in 0..pairs {
             if self.fault.is_some() {
                 break;

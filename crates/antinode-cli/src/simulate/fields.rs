@@ -28,10 +28,11 @@ pub fn loss(text: &str) -> Result<Loss, String> {
     let [at, count] = fields[..] else {
         return Err("it must be INDEX:COUNT, as in 500000:3".to_owned());
     };
-    Ok(Loss {
-        at: number(at)?,
-        count: number(count)?,
-    })
+    let (at, count) = (number(at)?, number(count)?);
+    if count == 0 {
+        return Err("COUNT is 0, but must be 1 or more".to_owned());
+    }
+    Ok(Loss { at, count })
 }
 
 /// Reads `FROM:TO:KIND` or `FROM:TO:KIND:CHANNEL`.

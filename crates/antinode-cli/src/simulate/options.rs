@@ -189,12 +189,17 @@ impl Simulate {
         )))
     }
 
-    /// Rejects a frequency whose samples would be those of another one.
+    /// Rejects a frequency whose samples would be those of another one, and one that drifts to zero.
     pub fn check_frequency(&self) -> Result<(), Failure> {
         let (first, half) = (self.wave.frequency, 0.5 * self.rate);
         let last = first + self.wave.frequency_rate * self.seconds;
         let [lowest, highest] = [first.min(last), first.max(last)];
-        if highest < half && lowest > -half {
+        if lowest <= 0.0 {
+            return Err(Failure::Usage(format!(
+                "--frequency-rate: {first} Hz drifts to {last} Hz, but must stay above 0; give a smaller rate, or fewer --seconds"
+            )));
+        }
+        if highest < half {
             return Ok(());
         }
         let drift = if first == last {

@@ -310,6 +310,44 @@ fn what_cannot_be_written_is_refused() {
 
 #[cfg(unix)]
 #[test]
+fn a_gap_that_zeros_would_fill_a_disk_with_is_refused() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let shifted = |shift: f64| {
+        let lines = text(&WAVE.codes(10_000));
+        let lines = lines
+            .lines()
+            .enumerate()
+            .map(|(at, line)| match (at, line.split_once(',')) {
+                (5000.., Some((time, rest))) => {
+                    format!("{:.5},{rest}\n", time.parse::<f64>().unwrap() + shift)
+                }
+                _ => format!("{line}\n"),
+            });
+        fs::write(here.join("a.csv"), lines.collect::<String>()).unwrap();
+        run(here, "identify a.csv --residual left.wav -o rows.csv")
+    };
+    let found = shifted(1000.0);
+    let told =
+        " sample pairs in a row are lost, and the file would hold as many zeros; it is not written";
+    assert!(found.code == 1 && found.err.contains(told), "{}", found.err);
+    assert!(!here.join("left.wav").exists());
+    assert!(
+        fs::read_to_string(here.join("rows.csv"))
+            .unwrap()
+            .lines()
+            .count()
+            > 40
+    );
+    let found = shifted(1.0);
+    assert!(
+        found.err.contains("left.wav: 110000 sample pairs"),
+        "{}",
+        found.err
+    );
+}
+
+#[test]
 fn it_is_not_written_without_a_reader_of_the_rows() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();

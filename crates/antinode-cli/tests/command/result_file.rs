@@ -24,6 +24,16 @@ fn the_result_goes_to_a_file_in_the_format_of_its_name() {
             // With a format the name may end as it likes.
             assert_eq!(written("it.dat", option), printed, "{command} {option}");
         }
+        #[cfg(unix)]
+        for command in [
+            format!("{command} rows.csv -o /dev/null"),
+            format!("{command} rows.csv -o /dev/stderr --output csv"),
+        ] {
+            let found = run(here, &command);
+            assert_eq!((found.code, found.out.as_str()), (0, ""), "{}", found.err);
+            let is_shown = found.err.contains("gain_ratio") || found.err.contains("decay_time_s");
+            assert_eq!(is_shown, command.contains("stderr"), "{}", found.err);
+        }
         // The rows are not overwritten, and nothing is read in vain.
         for (name, told) in [
             ("rows.csv", "has rows to be read"),

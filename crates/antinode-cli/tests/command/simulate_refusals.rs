@@ -46,8 +46,8 @@ fn options_that_make_no_sense_are_refused() {
             "--frequency: 49999 Hz drifts to 50001 Hz",
         ),
         (
-            "-o a.wav --frequency-rate -60000",
-            "--frequency: 5332 Hz drifts to -54668 Hz",
+            "-o a.wav --frequency-rate -6000",
+            "--frequency-rate: 5332 Hz drifts to -668 Hz, but must stay above 0; give a smaller rate",
         ),
         (
             "-o a.wav --damping-split inf",
@@ -88,6 +88,7 @@ fn options_that_make_no_sense_are_refused() {
             "--clip-span: it goes from 0.5 s to 0.2 s",
         ),
         ("-o a.wav --lost 5", "INDEX:COUNT"),
+        ("-o a.wav --lost 5:0", "COUNT is 0"),
         ("-o a.wav --lost 100000:5", "--lost: it begins at 1"),
         ("-o a.wav --dropout 0:1:some", "zero, hold or noise"),
         (

@@ -5,6 +5,7 @@ mod moments;
 mod pick_offs;
 mod solve;
 mod undriven;
+mod within_period;
 
 use std::io::{self, Write};
 

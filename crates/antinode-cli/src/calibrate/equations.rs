@@ -1,11 +1,12 @@
 //! The equations of a run's moments: what pick-offs and splits do to the energy and the quadrature.
 
-use nalgebra::{Complex, DVector};
+use nalgebra::DVector;
 
 use super::moments::Run;
 use super::pick_offs::PickOffs;
 use super::solve::{Damping, FLAWS, SPLITS, shares, variances};
-use crate::runs::{per_radian, turn};
+use super::within_period::{WithinPeriod, decay};
+use crate::runs::per_radian;
 
 /// An equation of least squares: places and factors of unknowns, the value seen, and one over its variance.
 pub struct Equation {
@@ -42,8 +43,7 @@ pub fn equations<'a>(
     let tangent = (2.0 * pick_offs.angle).tan();
     let noise_gains = pick_offs.noise_gains();
     let mut sums = Sums::default();
-    let decay = decay(&ideal, last - first);
-    let (mut turned, mut before) = (0.0, run.moments[0].angle(pick_offs));
+    let mut within_period = WithinPeriod::new(decay(&ideal, last - first), [dc, ds, ws, wc], unit);
     let each = run.moments.iter().zip(ideal);
     each.map(move |(moment, ideal)| {
         let [energy, r, s, q] = shares(ideal);
@@ -89,11 +89,8 @@ pub fn equations<'a>(
             of_energy[flaw] -= dc * to_r + ds * to_s;
             of_quadrature[flaw] -= ws * to_r + wc * to_s - dc * to_qr - ds * to_qs;
         }
-        let angle = moment.angle(pick_offs);
-        turned += turn(angle - before);
-        before = angle;
-        // Of a turning pattern one travelling wave decays faster: quadrature grows by a_A·2θ̇/ωτ a second.
-        let by_turning = 4.0 * decay * turned * per_radian(moment.omega) * (1.0 - q * q);
+        let [of_energy_within, of_quadrature_within] =
+            within_period.advance(moment, moment.angle(pick_offs), [r, s, q]);
         let variances = variances(ideal, noise_gains).map(|part| part * moment.variance);
         let time = 2.0 * (moment.time - middle) / unit;
         let equation = |row: [f64; FLAWS + SPLITS], seen: f64, first: usize, variance: f64| {
@@ -105,7 +102,7 @@ pub fn equations<'a>(
                 weight: 1.0 / variance,
             }
         };
-        let mut of_energy = equation(of_energy, energy.ln(), own, variances[0]);
+        let mut of_energy = equation(of_energy, energy.ln() - of_energy_within, own, variances[0]);
         let bend = damping.bend_at(own).map(|place| (place, time * time));
         of_energy.entries.extend(bend);
         AtMoment {
@@ -113,15 +110,14 @@ pub fn equations<'a>(
             state: [r, s, q],
             variance: variances[0],
             energy: of_energy,
-            quadrature: equation(of_quadrature, q + by_turning, own + 2, variances[1]),
+            quadrature: equation(
+                of_quadrature,
+                q - of_quadrature_within,
+                own + 2,
+                variances[1],
+            ),
         }
     })
-}
-
-/// Mean decay rate of the amplitude in so many `seconds`, 1/s, by the energy of the first and the last of these phasors.
-fn decay(ideal: &[[Complex<f64>; 2]], seconds: f64) -> f64 {
-    let energy = |phasors| shares(phasors)[0];
-    0.5 * (energy(ideal[0]) / energy(ideal[ideal.len() - 1])).ln() / seconds
 }
 
 /// What is kept of a moment to sum up noise in the integrals, which runs backwards in time: a fraction of the size of its equations.

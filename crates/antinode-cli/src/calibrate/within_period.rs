@@ -1,0 +1,53 @@
+//! What rotation and decay together do to a wave within its periods.
+
+use nalgebra::Complex;
+
+use super::moments::Moment;
+use super::solve::{SPLITS, shares};
+use crate::runs::{per_radian, turn};
+
+/// Mean decay rate of the amplitude in so many `seconds`, 1/s, by the energy of the first and the last of these phasors.
+pub fn decay(ideal: &[[Complex<f64>; 2]], seconds: f64) -> f64 {
+    let energy = |phasors| shares(phasors)[0];
+    0.5 * (energy(ideal[0]) / energy(ideal[ideal.len() - 1])).ln() / seconds
+}
+
+/// What rotation and decay together do within a period to ln E and to Q/E since the first moment: as in [`crate::resonator::motion`],
+/// their rates are (κ/ω)(2/τ) Q/E and (κ/ω)(2/τ)(1 − (Q/E)²).
+pub struct WithinPeriod {
+    /// 1/τ, 1/s.
+    decay: f64,
+    /// δ c_τ, δ s_τ, Δω s_ω and Δω c_ω, per second.
+    splits: [f64; SPLITS],
+    sums: [f64; 2],
+    /// Time, s, the pattern angle, rad, and R/E, S/E and Q/E of the last moment.
+    last: Option<(f64, f64, [f64; 3])>,
+}
+
+impl WithinPeriod {
+    pub fn new(decay: f64, splits: [f64; SPLITS], unit: f64) -> Self {
+        Self {
+            decay,
+            splits: splits.map(|split| split / unit),
+            sums: [0.0; 2],
+            last: None,
+        }
+    }
+
+    /// Takes the next moment, with its pattern angle and its R/E, S/E and Q/E; gives what is added to ln E and to Q/E up to it.
+    pub fn advance(&mut self, moment: &Moment, angle: f64, state: [f64; 3]) -> [f64; 2] {
+        let now = (moment.time, angle, state);
+        if let Some((time, before, last)) = self.last.replace(now) {
+            let [dc, ds, ws, wc] = self.splits;
+            let [r, s, q] = [0, 1, 2].map(|i| 0.5 * (last[i] + state[i]));
+            let line = (r * r + s * s).max(f64::MIN_POSITIVE);
+            // The splits turn the pattern too: the rest of its turn is by −κ/2 a second.
+            let by_splits = (s * (dc - ws * q) - r * (ds + wc * q)) / line;
+            let kappa = -2.0 * turn(angle - before) + 0.5 * by_splits * (moment.time - time);
+            let by = 2.0 * self.decay * kappa * per_radian(moment.omega);
+            self.sums[0] += by * q;
+            self.sums[1] += by * line;
+        }
+        self.sums
+    }
+}

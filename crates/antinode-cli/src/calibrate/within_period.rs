@@ -51,3 +51,57 @@ impl WithinPeriod {
         self.sums
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::calibrate::pick_offs::PickOffs;
+    use crate::resonator::motion::Motion;
+
+    #[test]
+    fn sums_are_what_the_motion_has_beyond_that_of_short_periods() {
+        const OMEGA: f64 = 2000.0;
+        // With splits and without: 1/τ, δ c_τ, δ s_τ, Δω c_ω, Δω s_ω, γ, κ, a_A, a_B and θ.
+        for (parameters, splits) in [
+            ([0.2, 0.0, 0.0, 0.0, 0.0, 0.0, 0.6, 1.0, 0.3, 0.4], [0.0; 4]),
+            (
+                [0.2, 0.02, -0.03, 0.0, 0.0, 0.0, -0.6, 1.0, -0.4, 0.1],
+                [0.02, -0.03, 0.0, 0.0],
+            ),
+        ] {
+            let mut short = Motion::new(&parameters);
+            let mut true_motion = Motion::new(&parameters).of_frequency(OMEGA);
+            let of = |motion: &Motion| {
+                let [main, quadrature, angle] = motion.wave().into();
+                let energy = main * main + quadrature * quadrature;
+                let (sine, cosine) = (4.0 * angle).sin_cos();
+                let line = (main * main - quadrature * quadrature) / energy;
+                let state = [line * cosine, line * sine, 2.0 * main * quadrature / energy];
+                (energy.ln(), angle, state)
+            };
+            let mut within = WithinPeriod::new(0.2, splits, 1.0);
+            let mut sums = [0.0; 2];
+            for step in 0..=200 {
+                let (_, angle, state) = of(&true_motion);
+                let moment = Moment {
+                    time: 0.01 * f64::from(step),
+                    raw: [Complex::new(1.0, 0.0); 2],
+                    omega: OMEGA,
+                    variance: 1.0,
+                    corrected: PickOffs::IDEAL,
+                    seconds: 0.0,
+                };
+                sums = within.advance(&moment, angle, state);
+                if step < 200 {
+                    short.advance(0.01);
+                    true_motion.advance(0.01);
+                }
+            }
+            let ((energy, _, now), (other_energy, _, other)) = (of(&true_motion), of(&short));
+            let expected = [energy - other_energy, now[2] - other[2]];
+            for (sum, expected) in sums.into_iter().zip(expected) {
+                assert!((sum / expected - 1.0).abs() < 0.05, "{sums:?} {expected}");
+            }
+        }
+    }
+}

@@ -308,7 +308,6 @@ fn what_cannot_be_written_is_refused() {
     assert_eq!(fs::read(here.join("b.wav")).unwrap(), recording);
 }
 
-#[cfg(unix)]
 #[test]
 fn a_gap_that_zeros_would_fill_a_disk_with_is_refused() {
     let directory = tempfile::tempdir().unwrap();
@@ -347,6 +346,7 @@ fn a_gap_that_zeros_would_fill_a_disk_with_is_refused() {
     );
 }
 
+#[cfg(unix)]
 #[test]
 fn it_is_not_written_without_a_reader_of_the_rows() {
     let directory = tempfile::tempdir().unwrap();

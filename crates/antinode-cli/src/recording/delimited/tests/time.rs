@@ -201,8 +201,19 @@ fn a_column_that_counts_the_samples_shows_which_are_missing() {
 }
 
 #[test]
+fn a_jump_of_the_times_does_not_move_the_rate_before_it() {
+    let time = |k: u32| f64::from(k) + if k < 300 { 0.0 } else { 0.46 };
+    let text: String = (0..400)
+        .map(|k| format!("{:.3}e-5,1,2\n", time(k)))
+        .collect();
+    assert_eq!(rate(&text), Some(1e5));
+    assert_eq!(bad(&text).0, 300);
+}
+
+#[test]
 fn samples_at_uneven_times_are_refused() {
-    let time = |k: u32| f64::from(k) + [0.0, 0.02, -0.02, 0.005, 0.0, 0.0][k as usize % 6];
+    // One in four: each alone could be an accident.
+    let time = |k: u32| f64::from(k) + [0.0, 0.0, 0.0, 0.03][k as usize % 4];
     let text: String = (0..10_000)
         .map(|k| format!("{:.3},1,2\n", time(k)))
         .collect();

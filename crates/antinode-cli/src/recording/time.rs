@@ -1,5 +1,9 @@
 //! The time column of a text recording: its sample rate, and the check that its times keep to that rate.
 
+mod odd;
+
+use odd::is_forward;
+
 use super::printed::Printed;
 use crate::digits::significant;
 use crate::median::median;
@@ -215,55 +219,6 @@ impl TimeAxis {
         self.start
     }
 
-    /// Rounding near this time, in samples.
-    fn rounding(&self, now: f64, printed: Printed) -> f64 {
-        printed.step(now).max(self.rounding) / self.step
-    }
-
-    /// Whether a time follows the last one without a gap.
-    pub fn is_next(&self, now: f64, printed: Printed) -> bool {
-        let off = ((now - self.last) / self.step - 1.0).abs();
-        off <= STEP_TOLERANCE + self.rounding(now, printed).min(0.5 - STEP_TOLERANCE)
-    }
-
-    /// Whether a time that does not follow the last one is wrong by the times `ahead`, behind it; none if more of these are needed to tell.
-    /// One between samples is wrong only if `may_be_between`: where many are, samples are not taken at a constant rate.
-    pub fn is_odd(
-        &self,
-        now: f64,
-        ahead: &[f64],
-        printed: Printed,
-        may_be_between: bool,
-    ) -> Option<bool> {
-        let rounding = self.rounding(self.last, printed);
-        if self.is_coarse(rounding) {
-            return Some(false);
-        }
-        let samples = |time: f64| (time - self.last) / self.step;
-        let is_whole =
-            |time: f64| is_forward(samples(time), self.tolerance(samples(time), rounding));
-        // A gap: only if time runs back behind it may it be none.
-        if is_whole(now) && ahead.first().is_some_and(|&next| next > now) {
-            return Some(false);
-        }
-        let is_resumed = |pair: &[f64]| is_whole(pair[0]) && is_whole(pair[1]) && pair[0] < pair[1];
-        let mut pairs = ahead.windows(2);
-        if now > self.last && !is_whole(now) && ahead.first().is_some_and(|&next| next > now) {
-            return Some(may_be_between && pairs.next().is_some_and(is_resumed));
-        }
-        pairs.any(is_resumed).then_some(true)
-    }
-
-    /// Whether rounding, in samples, hides lost samples.
-    fn is_coarse(&self, rounding: f64) -> bool {
-        rounding > MAX_ROUNDING && rounding * self.step > self.harmless
-    }
-
-    /// Largest deviation of a time so many samples later from a whole number of these.
-    fn tolerance(&self, samples: f64, rounding: f64) -> f64 {
-        STEP_TOLERANCE + rounding.min(MAX_ROUNDING) + samples * self.uncertainty / self.step
-    }
-
     /// Checks the time of the next line: gives the number of samples lost before it, or how it breaks the rate.
     pub fn check(&mut self, now: f64, printed: Printed) -> Result<u64, String> {
         let rounding = self.rounding(now, printed);
@@ -320,11 +275,6 @@ impl TimeAxis {
             ))
         }
     }
-}
-
-/// Whether this is a whole number of samples, at least 1, within a tolerance.
-fn is_forward(samples: f64, tolerance: f64) -> bool {
-    samples > 0.5 && (samples - samples.round()).abs() <= tolerance
 }
 
 /// Whether each of `times` stands in two lines, as for a minimum and a maximum; the first or the last may stand alone.

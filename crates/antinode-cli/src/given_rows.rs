@@ -1,5 +1,6 @@
 //! Which rows a command is given.
 
+use std::collections::HashMap;
 use std::ops::Range;
 use std::path::PathBuf;
 
@@ -45,6 +46,19 @@ pub fn recording_of<T>(
         recordings.push(new());
         recordings.len() - 1
     })
+}
+
+/// The names of recordings, each given by the file of its rows and its own name: those of the same name are distinguished by these files.
+pub fn told_apart(recordings: &[(String, String)]) -> Vec<String> {
+    let mut count = HashMap::new();
+    for (_, name) in recordings {
+        *count.entry(name).or_insert(0) += 1;
+    }
+    let names = recordings.iter().map(|(input, name)| match count[name] {
+        1 => name.clone(),
+        _ => format!("{input}: {name}"),
+    });
+    names.collect()
 }
 
 /// The failure if no row lies within the times asked for; the rows' own times go from `first` to `last`, s.

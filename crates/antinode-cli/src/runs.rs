@@ -17,7 +17,7 @@ use antinode::Flags;
 
 use crate::digits::counted;
 use crate::failure::Failure;
-use crate::given_rows::{GivenRows, none_within, recording_of};
+use crate::given_rows::{GivenRows, none_within, recording_of, told_apart};
 use crate::row_file::{self, RowFile};
 use recording::Recording;
 use row::Places;
@@ -37,8 +37,8 @@ pub struct Runs {
     pub runs: Vec<Run>,
     /// Rows read within the times asked for, including flagged ones.
     pub rows: usize,
-    /// The recordings that the rows are of, those without a run included, in the order of `runs`.
-    recordings: Vec<Found>,
+    /// The recordings that the rows are of, in the order of `runs`: the file of the rows, its own name, and the number of its runs.
+    recordings: Vec<((String, String), usize)>,
     /// The first and the last time in the rows, s, and the times asked for.
     span: Option<[f64; 2]>,
     asked: Range<f64>,
@@ -52,17 +52,6 @@ pub struct Runs {
     max_turn: f64,
     /// Flags of a row that end a run.
     breaks: Flags,
-}
-
-/// A recording in a file of rows.
-#[derive(Debug)]
-struct Found {
-    /// Name of the file of rows.
-    input: String,
-    /// Name of the recording.
-    name: String,
-    /// Number of its runs.
-    runs: usize,
 }
 
 impl Runs {
@@ -150,18 +139,13 @@ impl Runs {
         })
     }
 
-    /// The runs of each recording, which may be none, by its name, without the notes on all of them. Recordings of the same name are
-    /// distinguished by the files of their rows.
+    /// The runs of each recording, which may be none, by its name, without the notes on all of them.
     pub fn by_recording(self) -> Vec<(String, Self)> {
-        let recordings = &self.recordings;
+        let (names, counts): (Vec<_>, Vec<_>) = self.recordings.into_iter().unzip();
         let mut runs = self.runs.into_iter();
-        let each = recordings.iter().map(|found| {
-            let same = recordings.iter().filter(|other| other.name == found.name);
-            let name = match same.count() {
-                1 => found.name.clone(),
-                _ => format!("{}: {}", found.input, found.name),
-            };
-            let runs = runs.by_ref().take(found.runs).collect();
+        let each = told_apart(&names).into_iter().zip(counts);
+        let each = each.map(|(name, count)| {
+            let runs = runs.by_ref().take(count).collect();
             (
                 name,
                 Self {
@@ -254,11 +238,8 @@ impl Runs {
         }
         for mut recording in recordings {
             recording.end();
-            self.recordings.push(Found {
-                input: rows.name().to_owned(),
-                name: recording.file.clone(),
-                runs: recording.runs.len(),
-            });
+            let named = (rows.name().to_owned(), recording.file.clone());
+            self.recordings.push((named, recording.runs.len()));
             self.overlapping += recording.overlapping;
             self.backward += recording.backward;
             self.runs.append(&mut recording.runs);

@@ -1,6 +1,5 @@
 //! The rows to be drawn, by recording.
 
-use std::collections::HashMap;
 use std::ops::Range;
 use std::path::PathBuf;
 
@@ -9,7 +8,7 @@ use csv::StringRecord;
 
 use super::numbers::drawable;
 use crate::failure::Failure;
-use crate::given_rows::recording_of;
+use crate::given_rows::{recording_of, told_apart};
 use crate::median::median;
 use crate::row_file::{self, RowFile, Unusable, number};
 
@@ -61,25 +60,18 @@ pub struct Trace {
 /// Reads files of rows, `-` being standard input, and returns the recordings and the names of the files.
 pub fn open(paths: &[PathBuf]) -> Result<(Vec<Trace>, String), Failure> {
     let mut traces: Vec<Trace> = Vec::new();
-    let mut inputs = Vec::new();
+    let mut recordings = Vec::new();
     let mut names = Vec::new();
     for path in paths {
         let file = RowFile::open(path)?;
         let input = file.name().to_owned();
         let new = read(file)?;
-        inputs.extend(new.iter().map(|_| input.clone()));
+        recordings.extend(new.iter().map(|trace| (input.clone(), trace.name.clone())));
         traces.extend(new);
         names.push(input);
     }
-    // Recordings of the same name are distinguished by the files of their rows.
-    let mut count = HashMap::new();
-    for trace in &traces {
-        *count.entry(trace.name.clone()).or_insert(0) += 1;
-    }
-    for (trace, input) in traces.iter_mut().zip(inputs) {
-        if count[&trace.name] > 1 {
-            trace.name = format!("{input}: {}", trace.name);
-        }
+    for (trace, name) in traces.iter_mut().zip(told_apart(&recordings)) {
+        trace.name = name;
     }
     Ok((traces, names.join(", ")))
 }

@@ -47,8 +47,7 @@ pub(super) fn open(stream: Stream, options: &OpenOptions, live: bool) -> Result<
         return Err(source.fault.take().unwrap_or_else(Fault::no_pairs));
     }
     let (sample_rate, start) = (source.rate(), source.start());
-    // A count of samples shows which are missing, and no more.
-    let axis = source.rows.axis.as_ref().filter(|_| !source.is_counted());
+    let axis = source.times();
     let meaning = match (source.rows.header.sequence, sample_rate) {
         (Some(_), Some(own)) => Some(Meaning::of_rate(own, options.rate)),
         _ => axis.map(|axis| axis.meaning(source.rows.printed, options.rate)),
@@ -106,7 +105,7 @@ impl Delimited {
         } else {
             None
         };
-        let start = self.rows.axis.as_ref().map(TimeAxis::start);
+        let start = self.times().map(TimeAxis::start);
         self.start = start.or(times.first().copied()).unwrap_or(0.0);
         let (mut pairs, mut broken) = (Vec::new(), None);
         while self.rows.read < head && !self.rows.begin_garbled() && self.fault.is_none() {
@@ -147,8 +146,7 @@ impl Delimited {
 
     /// The sample rate, Hz, by the times or else by the header.
     fn rate(&self) -> Option<f64> {
-        let axis = self.rows.axis.as_ref().filter(|_| !self.is_counted());
-        let by_times = axis.map(TimeAxis::rate);
+        let by_times = self.times().map(TimeAxis::rate);
         match self.rows.header.sequence {
             Some(sequence) => Some(roundest(by_times.unwrap_or(1.0) / sequence.step, 0.0)),
             None => by_times,
@@ -160,10 +158,14 @@ impl Delimited {
         self.rows.header.counter.is_some()
     }
 
+    /// The times of the samples: a count shows which samples are missing, and no more.
+    fn times(&self) -> Option<&TimeAxis> {
+        self.rows.axis.as_ref().filter(|_| !self.is_counted())
+    }
+
     /// The first sample's time, s.
     fn start(&self) -> f64 {
         match self.rows.header.sequence {
-            _ if self.is_counted() => 0.0,
             Some(sequence) if self.rows.axis.is_some() || !sequence.is_counted => {
                 sequence.seconds(self.start)
             }
@@ -181,7 +183,7 @@ impl Delimited {
         let line = self.rows.lines.number();
         let last = axis.last();
         let lost = axis.check(time, self.rows.printed);
-        if lost.is_err() && self.rows.header.counter.is_some() {
+        if lost.is_err() && self.is_counted() {
             // A count that begins anew tells nothing.
             self.rows.ignore_counter();
             return Ok(());
@@ -281,11 +283,7 @@ impl Delimited {
 
     /// A warning about the samples delivered that could not be given before.
     pub fn late_warning(&self) -> Option<String> {
-        self.rows
-            .axis
-            .as_ref()
-            .filter(|_| !self.is_counted())?
-            .late_warning(self.used)
+        self.times()?.late_warning(self.used)
     }
 
     /// The first sample that is not a finite number, with its place.

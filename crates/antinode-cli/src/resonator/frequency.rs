@@ -47,15 +47,11 @@ pub fn frequency(rows: &mut Runs, found: &Found) -> Frequency {
 
 /// Whether rows' own frequencies differ from this mean, Hz, by more than any turn or split explains.
 fn is_contradicted(mean: f64, rows: &Runs) -> bool {
-    let (mut count, mut weights, mut sum) = (0.0, 0.0, 0.0);
-    for row in rows.runs.iter().flat_map(|run| &run.rows) {
-        let weight = row.frequency_deviation.powi(-2);
-        count += 1.0;
-        weights += weight;
-        sum += weight * (row.frequency - mean);
-    }
-    let of_row = (count / weights).sqrt();
-    (sum / weights).abs() > MAX_CONTRADICTION * of_row
+    let all = rows.runs.iter().flat_map(|run| &run.rows);
+    let apart = |row: &Row| (row.frequency_deviation.powi(-2), row.frequency - mean);
+    let (apart, weights) = weighted_mean(all.map(apart));
+    let of_row = (rows.used() as f64 / weights).sqrt();
+    apart.abs() > MAX_CONTRADICTION * of_row
 }
 
 /// The mean frequency of stretches of rows, weighted by their variances. Its deviation is wider if stretches scatter by more than theirs,
@@ -89,7 +85,7 @@ fn by_stretches(rows: &Runs, found: &Found) -> Frequency {
     });
     let runs: Vec<Vec<Point>> = runs.collect();
     let all = || runs.iter().flatten();
-    let (mean, weights) = weighted_mean(all());
+    let (mean, weights) = weighted_mean(all().map(weighted));
     let (squares, neighbours) = residuals(all(), mean);
     let count = all().count() as f64;
     let widened = widened(squares / (count - 1.0), are_weighted);
@@ -128,16 +124,21 @@ fn by_stretches(rows: &Runs, found: &Found) -> Frequency {
     }
 }
 
-/// The weighted mean of points, Hz, and the sum of their weights.
-fn weighted_mean<'a>(points: impl Iterator<Item = &'a Point> + Clone) -> (f64, f64) {
-    let weights: f64 = points.clone().map(|point| point.weight).sum();
-    let sum: f64 = points.map(|point| point.weight * point.excess).sum();
+/// The mean of values with these weights, and the sum of the weights.
+fn weighted_mean(weighted: impl Iterator<Item = (f64, f64)>) -> (f64, f64) {
+    let add = |(weights, sum), (weight, value)| (weights + weight, sum + weight * value);
+    let (weights, sum) = weighted.fold((0.0, 0.0), add);
     (sum / weights, weights)
+}
+
+/// A point as [`weighted_mean`] takes it.
+fn weighted(point: &Point) -> (f64, f64) {
+    (point.weight, point.excess)
 }
 
 /// The mean of a run's points, Hz, and its deviation, which is wider if they scatter by more than theirs.
 fn mean_of_run(run: &[Point], are_weighted: bool) -> Measured {
-    let (mean, weights) = weighted_mean(run.iter());
+    let (mean, weights) = weighted_mean(run.iter().map(weighted));
     let (squares, _) = residuals(run.iter(), mean);
     let scatter = squares / (run.len() as f64 - 1.0).max(1.0);
     (mean, (widened(scatter, are_weighted) / weights).sqrt())

@@ -31,14 +31,12 @@ impl TimeAxis {
         let samples = |time: f64| (time - self.last) / self.step;
         let is_whole =
             |time: f64| is_forward(samples(time), self.tolerance(samples(time), rounding));
-        // A gap: only if time runs back behind it may it be none.
-        if is_whole(now) && ahead.first().is_some_and(|&next| next > now) {
-            return Some(false);
-        }
         let is_resumed = |pair: &[f64]| is_whole(pair[0]) && is_whole(pair[1]) && pair[0] < pair[1];
         let mut pairs = ahead.windows(2);
-        if now > self.last && !is_whole(now) && ahead.first().is_some_and(|&next| next > now) {
-            return Some(may_be_between && pairs.next().is_some_and(is_resumed));
+        // A whole number of samples later it is a gap: only if time runs back behind it may it be none.
+        if now > self.last && ahead.first().is_some_and(|&next| next > now) {
+            let is_between = may_be_between && !is_whole(now);
+            return Some(is_between && pairs.next().is_some_and(is_resumed));
         }
         pairs.any(is_resumed).then_some(true)
     }

@@ -47,7 +47,6 @@ impl Rows {
     /// Reads the samples as if they were not counted.
     pub fn ignore_counter(&mut self) {
         self.axis = None;
-        self.header.counter = None;
         self.header.places[TIME] = None;
     }
 

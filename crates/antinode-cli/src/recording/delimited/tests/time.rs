@@ -193,6 +193,12 @@ fn a_column_that_counts_the_samples_shows_which_are_missing() {
             (None, 0.0)
         );
     }
+    // A gap before the count begins anew is still told as one of counts.
+    let (pairs, fault) = bad(&text("n,c,d", &|k| gap(k) % 1200));
+    assert!(
+        pairs == 1000 && fault.contains("the count of samples goes from 499 to 800"),
+        "{fault}"
+    );
     // One that begins anew or counts something else does not.
     for count in [|k| k % 600, |k| k / 8, |k| 7 * k, |_| 0, |k| k * k] {
         let (pairs, fault) = bad(&text("n,c,d", &count));

@@ -25,13 +25,34 @@ mod settings;
 mod state;
 mod status;
 
-pub use capacity::*;
-pub use estimate::*;
-pub use fixed::*;
-pub use float::*;
-pub use settings::*;
+pub use capacity::{
+    ANTINODE_FIXED_WORDS, ANTINODE_FLOAT_WORDS, ANTINODE_LONGEST_PERIOD, ANTINODE_MOST_PERIODS,
+    ANTINODE_QUEUE_BLOCKS, ANTINODE_SHORTEST_PERIOD, Fixed, Float, antinode_fixed_size,
+    antinode_float_size,
+};
+pub use estimate::{
+    ANTINODE_FLAG_CIRCULAR, ANTINODE_FLAG_CLIPPED, ANTINODE_FLAG_DEAD_CHANNEL, ANTINODE_FLAG_LOST,
+    ANTINODE_FLAG_MISFIT, ANTINODE_FLAG_NOT_FINITE, ANTINODE_FLAG_PHASE_JUMP,
+    ANTINODE_FLAG_REACQUIRED, ANTINODE_FLAG_STEP, Estimate,
+};
+pub use fixed::{
+    antinode_fixed_health, antinode_fixed_identify, antinode_fixed_init, antinode_fixed_push,
+    antinode_fixed_push_block, antinode_fixed_push_block_interleaved,
+    antinode_fixed_push_block_packed, antinode_fixed_reset, antinode_fixed_search,
+    antinode_fixed_set_calibration, antinode_fixed_skip, antinode_fixed_solve,
+};
+pub use float::{
+    antinode_float_health, antinode_float_identify, antinode_float_init, antinode_float_push,
+    antinode_float_push_block, antinode_float_push_block_interleaved,
+    antinode_float_push_block_packed, antinode_float_reset, antinode_float_search,
+    antinode_float_set_calibration, antinode_float_skip, antinode_float_solve,
+};
+pub use settings::{
+    ANTINODE_DETECTION_DIFFERENCE, ANTINODE_DETECTION_MEAN_RETURN, Calibration, Settings,
+    antinode_settings_default,
+};
 pub use state::Health;
-pub use status::*;
+pub use status::{ANTINODE_VERSION, Status, antinode_status_string, antinode_version};
 
 /// Every `no_std` library must have one; nothing reaches it, so the linker drops it.
 #[cfg(any(target_os = "none", panic = "abort"))]

@@ -21,6 +21,9 @@ use super::{columns, signal_units};
 /// Lines in a row with numbers in the same columns that are taken for samples.
 pub(super) const STEADY_LINES: usize = 16;
 
+/// Lines among the first samples that may be garbled.
+const MAX_GARBLED: usize = 2;
+
 /// Longest preamble, in lines that are neither blank nor comments.
 const MAX_LINES: usize = 256;
 /// Longest preamble, in lines of any kind: all of it is looked at again when more is read.
@@ -70,11 +73,18 @@ pub(super) fn find(text: &[u8], is_all: bool) -> Option<Start> {
         let lead = lead(line);
         !lead.is_some_and(|field| is_sample(field, separator))
     });
-    let found = steady(&lines, separator).map(|numbers| {
-        cut::start(&lines, &numbers, separator).or_else(|| start(&lines, numbers, separator))
+    let may_go_on = begins_with_word && !is_all && lines.len() < MAX_LINES && is_short(text);
+    // A column in which a line is garbled is one more, once the lines below that line are seen.
+    let is_whole =
+        |numbers: &Vec<usize>| steady(&lines, separator, MAX_GARBLED).as_ref() == Some(numbers);
+    let numbers = steady(&lines, separator, 0).filter(|all| !may_go_on || is_whole(all));
+    let found = numbers.map(|numbers| {
+        cut::start(&lines, &numbers, separator)
+            .or_else(|| start(&lines, &numbers, separator, 0))
+            .or_else(|| start(&lines, &numbers, separator, MAX_GARBLED))
     });
     match found {
-        None if begins_with_word && !is_all && lines.len() < MAX_LINES && is_short(text) => None,
+        None if may_go_on => None,
         found => Some(found.flatten().unwrap_or_default()),
     }
 }
@@ -130,27 +140,43 @@ fn has_samples(line: &Line, columns: &[usize], separator: u8) -> bool {
     are_samples && found.any(|field| is_number(field, separator))
 }
 
-/// The columns in which each of the last [`STEADY_LINES`] lines has a sample, most of them a number; none if there are not two.
-fn steady(lines: &[Line], separator: u8) -> Option<Vec<usize>> {
+/// The columns in which the last [`STEADY_LINES`] lines, all but up to `garbled` of them, have a sample, most of them a number; none if
+/// there are not two.
+fn steady(lines: &[Line], separator: u8, garbled: usize) -> Option<Vec<usize>> {
     let last = &lines[lines.len().checked_sub(STEADY_LINES)?..];
     let width = last.iter().map(|line| line.fields.len()).max()?;
     let is_steady = |&column: &usize| {
-        let fields = || last.iter().map(|line| line.fields.get(column).copied());
-        let numbers =
-            fields().filter(|field| field.is_some_and(|field| is_number(field, separator)));
-        let mut all = fields();
-        all.all(|field| field.is_some_and(|field| is_sample(field, separator)))
-            && 2 * numbers.count() > last.len()
+        let fields = last.iter().filter_map(|line| line.fields.get(column));
+        let samples = fields.clone().filter(|field| is_sample(field, separator));
+        let numbers = fields.filter(|field| is_number(field, separator));
+        samples.count() + garbled >= last.len() && 2 * numbers.count() > last.len()
     };
     let columns: Vec<usize> = (0..width).filter(is_steady).collect();
     (columns.len() >= 2).then_some(columns)
 }
 
-/// Finds where the samples in these columns, or the names above them, begin; none if a sample might be lost.
-fn start(lines: &[Line], numbers: Vec<usize>, separator: u8) -> Option<Start> {
-    let is_row = |line: &Line| has_samples(line, &numbers, separator);
-    let last_other = lines.iter().rposition(|line| !is_row(line));
-    let rows = last_other.map_or(0, |last| last + 1);
+/// The index of the first of the samples at the end, of which up to `garbled` lines may be garbled.
+fn first_row(lines: &[Line], numbers: &[usize], separator: u8, garbled: usize) -> usize {
+    let (mut first, mut others) = (lines.len(), 0);
+    for (place, line) in lines.iter().enumerate().rev() {
+        let is_row = has_samples(line, numbers, separator);
+        others += usize::from(!is_row);
+        if others > garbled {
+            break;
+        }
+        // The first line of all may be the garbled one.
+        if is_row || lead(line).is_some_and(|field| is_number(field, separator)) {
+            first = place;
+        }
+    }
+    first
+}
+
+/// Finds where the samples in these columns, or the names above them, begin; none if a sample might be lost. Up to `garbled` of the first
+/// samples may be garbled.
+fn start(lines: &[Line], numbers: &[usize], separator: u8, garbled: usize) -> Option<Start> {
+    let is_row = |line: &Line| has_samples(line, numbers, separator);
+    let rows = first_row(lines, numbers, separator, garbled);
     let width = numbers[numbers.len() - 1] + 1;
     let is_word = |field: &[u8]| !is_sample(field, separator);
     // Whether a line has words over all of these columns.
@@ -162,6 +188,10 @@ fn start(lines: &[Line], numbers: Vec<usize>, separator: u8) -> Option<Start> {
     let roles = lines
         .iter()
         .rposition(|line| is_named(line) && has_role(line));
+    // A line of names is no garbled one.
+    if garbled > 0 && roles.is_some_and(|roles| roles >= rows) {
+        return None;
+    }
     // Samples right below names must stay, even if the first of them are garbled.
     let are_samples = |roles: &usize| {
         let begins = |line: &Line| line.fields.first().is_some_and(|field| !is_word(field));
@@ -194,7 +224,7 @@ fn start(lines: &[Line], numbers: Vec<usize>, separator: u8) -> Option<Start> {
         unit: settings.iter().find_map(unit),
         sequence: Sequence::of_settings(&fields, separator),
         cut: None,
-        numbers,
+        numbers: numbers.to_vec(),
     })
 }
 

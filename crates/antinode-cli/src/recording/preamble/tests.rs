@@ -66,6 +66,45 @@ fn names_and_possible_samples_stay() {
 }
 
 #[test]
+fn garbled_lines_among_the_first_samples_stay() {
+    let settings = "Model,X\nRate,1e5\nPoints,1000\nTrigger,A\n";
+    for (names, lines) in [("TIME,CH1,CH2\n", 4), ("x,foo,bar\n", 4), ("", 4)] {
+        for garbled in ["1e-5", "1e-5,0.1", "x#!1e-5,0.1,0.1", "1e-5,0q1,0.1", "1e"] {
+            for place in [0, 1, 5, 14, 15, 16] {
+                let row = |k: usize| {
+                    if k == place {
+                        garbled.to_owned()
+                    } else {
+                        three(k)
+                    }
+                };
+                // Without names, words or a short first line may be some.
+                let is_told = place > 0 || !names.is_empty() && garbled.starts_with("1e-5");
+                let above = format!("{settings}{names}");
+                let mut text = above.clone();
+                let mut found = None;
+                for k in 0..40 {
+                    text += &(row(k) + "\n");
+                    found = found.or_else(|| find(text.as_bytes(), false));
+                }
+                let found = found.map(|start| (start.lines, start.numbers));
+                let whole = Some((lines, vec![0, 1, 2]));
+                assert!(
+                    found == whole || !is_told,
+                    "{above}{garbled} at {place}: {found:?}"
+                );
+            }
+        }
+    }
+    // No more than two lines are garbled samples, and names are none.
+    let garbled = format!("{settings}0,1,2\n1,1\n2,1\n3,1\n");
+    assert_eq!(skipped(&garbled, three), Some(0));
+    let stamped = |k: usize| format!("a{k},0.{k},-0.{k}");
+    let names = format!("{settings}Offset,0,0\nTime,CH1,CH2\na,1\n");
+    assert_eq!(skipped(&names, stamped), Some(0));
+}
+
+#[test]
 fn more_lines_are_asked_for_until_samples_are_seen() {
     let names = "Model,X\n".repeat(20);
     assert_eq!(find(names.as_bytes(), false), None);

@@ -27,7 +27,7 @@
 //! wave is lost:
 //!
 //! ```
-//! use core::sync::atomic::{AtomicU32, Ordering::Relaxed};
+//! use core::sync::atomic::{AtomicU32, Ordering::{Acquire, Release}};
 //!
 //! use antinode::{Block, Front, Settings, Tracker};
 //! use heapless::spsc::Queue;
@@ -47,7 +47,7 @@
 //! // Whenever the DMA has filled half of its buffer.
 //! // A timer's interrupt would `Front::push` each pair.
 //! let mut interrupt = |pairs: &[[i16; 2]]| {
-//!     front.search_if_wanted(WANTED.load(Relaxed));
+//!     front.search_if_wanted(WANTED.load(Acquire));
 //!     front.extend(pairs, |block| {
 //!         // A block that finds the queue full costs its window, no more:
 //!         // the tracker sees that it is missing.
@@ -60,7 +60,7 @@
 //!         if let Some(estimate) = tracker.push(&block) {
 //!             estimates.push(estimate);
 //!         }
-//!         WANTED.store(tracker.wanted_search(), Relaxed);
+//!         WANTED.store(tracker.wanted_search(), Release);
 //!     }
 //! };
 //!
@@ -96,8 +96,10 @@
 //! 1. the main loop sees that there is room for step 3, and calls [`Tracker::change`],
 //! 2. then [`Tracker::search`],
 //! 3. sends the settings to the interrupt, by a queue say,
-//! 4. and only then stores [`Tracker::wanted_search`];
-//! 5. the interrupt passes any settings received to [`Front::configure`], and only then calls [`Front::search_if_wanted`].
+//! 4. and only then stores [`Tracker::wanted_search`], with `Release`;
+//! 5. the interrupt loads that number, with `Acquire`, passes any settings received to [`Front::configure`], and only then calls
+//!    [`Front::search_if_wanted`] with the number loaded. To load it later is safe only where the main loop cannot run between: not if the
+//!    two are threads, or on two cores.
 //!
 //! The angle goes on; to begin anew with the start angle, call [`Tracker::configure`] instead of the first two. Blocks of the old settings
 //! then bear an old search number, and the tracker leaves them out. In any other order some of them bear the new number, and give windows
@@ -116,7 +118,11 @@
 //!
 //! [`Front::UNSET`], [`Tracker::UNSET`] and [`Identifier::UNSET`] are all zeros: statics initialised with them, for example in a
 //! `ConstStaticCell` of the crate `static_cell`, take neither flash nor stack; call `configure` before use. The result of
-//! [`Identifier::new`] is copied: an identifier of 5 KB takes 16 KB of stack, and 1 KB more flash.
+//! [`Identifier::new`] is copied: an identifier of 5 KB takes 16 KB of stack, and 1 KB more flash. On a Cortex-M0 `static_cell` needs the
+//! feature `critical-section` of the crate `portable-atomic`.
+//!
+//! Settings checked in a constant, as [`Settings::check`] and [`Front::check`] show, are not refused later. Do not `unwrap` the result all
+//! the same: the message of a [`SettingsError`] has numbers, and what prints them takes 30 KB of flash.
 //!
 //! `opt-level = 2` is as fast as 3 and smaller. On a Cortex-M4 give rustc `-Ctarget-cpu=cortex-m4`: without it rustc mistakes three-cycle
 //! multiply-accumulates for single-cycle ones. With it the core is 2 KB larger. Cargo does not take such flags from a dependency: they

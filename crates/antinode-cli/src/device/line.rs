@@ -6,7 +6,8 @@ use std::process;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use antinode_telemetry::{
-    Cause, Command, CommandError, CommandFrame, Hello, MAX_FRAME, Receiver, Report, State, frame,
+    Cause, Command, CommandError, CommandFrame, Damage, Hello, MAX_FRAME, Receiver, Report, State,
+    frame,
 };
 use serialport::SerialPort;
 
@@ -25,6 +26,8 @@ pub struct Line {
     baud: u32,
     receiver: Receiver,
     bytes: u64,
+    /// An intact frame of another protocol version, or an echo, if one came.
+    foreign: Option<Damage>,
 }
 
 /// What the device answered to a command.
@@ -64,6 +67,7 @@ impl Line {
             baud,
             receiver: Receiver::new(),
             bytes: 0,
+            foreign: None,
         })
     }
 
@@ -129,12 +133,15 @@ impl Line {
         match self.port.read(&mut buffer) {
             Ok(length) => {
                 self.bytes += length as u64;
-                let bytes = &buffer[..length];
-                let receiver = &mut self.receiver;
-                Ok(bytes
-                    .iter()
-                    .filter_map(|&byte| receiver.push(byte)?.ok())
-                    .collect())
+                let mut reports = Vec::new();
+                for &byte in &buffer[..length] {
+                    match self.receiver.push(byte) {
+                        Some(Ok(report)) => reports.push(report),
+                        Some(Err(damage @ Damage::Header(_))) => self.foreign = Some(damage),
+                        Some(Err(_)) | None => {}
+                    }
+                }
+                Ok(reports)
             }
             Err(error) => match error.kind() {
                 io::ErrorKind::TimedOut | io::ErrorKind::Interrupted => Ok(Vec::new()),
@@ -148,6 +155,8 @@ impl Line {
         let (reports, bytes) = (self.receiver.reports(), self.bytes);
         let why = if bytes == 0 {
             "nothing was received: check that the device runs, and its wiring".to_owned()
+        } else if let (0, Some(foreign)) = (reports, self.foreign) {
+            format!("what was received is {foreign}")
         } else if reports == 0 {
             format!(
                 "{bytes} bytes were received, but no telemetry: check --baud (it was {}), and that firmware and command use the same \

@@ -34,7 +34,7 @@ pub struct Frequency {
 pub fn frequency(rows: &mut Runs, found: &Found) -> Frequency {
     let by_phases = by_stretches(rows, found);
     let (mean, _) = by_phases.mean;
-    if !is_contradicted(mean, rows) {
+    if !is_contradicted(mean, rows, found) {
         return by_phases;
     }
     let all = rows.runs.iter_mut().flat_map(|run| &mut run.rows);
@@ -46,9 +46,14 @@ pub fn frequency(rows: &mut Runs, found: &Found) -> Frequency {
 }
 
 /// Whether rows' own frequencies differ from this mean, Hz, by more than any turn or split explains.
-fn is_contradicted(mean: f64, rows: &Runs) -> bool {
+fn is_contradicted(mean: f64, rows: &Runs, found: &Found) -> bool {
     let all = rows.runs.iter().flat_map(|run| &run.rows);
-    let apart = |row: &Row| (row.frequency_deviation.powi(-2), row.frequency - mean);
+    let all = all.zip(found.frequency_moved(&rows.runs));
+    // The mean is without the splits' part, which rows have.
+    let apart = |(row, moved): (&Row, Moved)| {
+        let of_row = weighed(row, &moved, found, true);
+        (of_row.weight, row.frequency - of_row.by_splits - mean)
+    };
     let (apart, weights) = weighted_mean(all.map(apart));
     let of_row = (rows.used() as f64 / weights).sqrt();
     apart.abs() > MAX_CONTRADICTION * of_row

@@ -58,10 +58,11 @@ pub fn errors(samples: &Samples, wave: &Wave) -> [Errors; 8] {
             let products = Products::of(window, omega);
             functional::squares(&at(&products), &moments, &products)
         };
-        frequency::on_grid(TAU * rough, TAU * STEP / samples.rate, REACH, j)
+        search(samples, rough, j)
     };
     let aligned = |shape: Shape| refined(&|products: &Products| phase::align(&shape, products));
-    let solved = exact::solve(window, TAU * rough);
+    let of_fourth = refined(&algorithm4::wave);
+    let solved = exact::solve(window, of_fourth);
     let by = |shape: Shape, omega: f64| difference(&shape, omega, samples.rate, wave);
     let frequency_only = |cycles: f64| {
         [
@@ -75,12 +76,26 @@ pub fn errors(samples: &Samples, wave: &Wave) -> [Errors; 8] {
         by(first, aligned(first)),
         by(second, aligned(second)),
         by(third, aligned(third)),
-        by(fourth, refined(&algorithm4::wave)),
+        by(fourth, of_fourth),
         frequency_only(period::by_mean_return(samples)),
         frequency_only(rough),
         by(fractional, f64::NAN),
         by(solved.wave.shape, solved.omega),
     ]
+}
+
+/// The lowest J on the grid of [`STEP`] about a `rough` frequency, in cycles a sample, as trying each of its points finds it: down the
+/// valley of the lowest of those points that lie a quarter of a valley apart. The rough period may be off by a sample and a half.
+fn search(samples: &Samples, rough: f64, j: impl Fn(f64) -> f64) -> f64 {
+    let step = TAU * STEP / samples.rate;
+    let stride = (0.25 * samples.rate / samples.count as f64 / STEP).max(1.0) as i32;
+    let far = (1.5 * rough * rough * samples.rate / STEP).min(f64::from(REACH));
+    let strides = far as i32 / stride;
+    let starts = (-strides..=strides).map(|at| TAU * rough + f64::from(at * stride) * step);
+    let tried = starts.map(|start| (start, j(start)));
+    let lowest = tried.min_by(|(_, one), (_, other)| one.total_cmp(other));
+    let start = lowest.map_or(TAU * rough, |(start, _)| start);
+    frequency::on_grid(start, step, REACH, j)
 }
 
 fn difference(shape: &Shape, omega: f64, rate: f64, wave: &Wave) -> Errors {

@@ -41,6 +41,27 @@ fn the_exact_solution_reaches_the_bound() {
 }
 
 #[test]
+fn frequencies_are_found_in_windows_whose_valleys_are_narrower_than_the_error_of_formula_10() {
+    for (rate, periods, noise) in [
+        (1e5, 70, 0.02),
+        (1e5, 100, 0.02),
+        (29_326.0, 9, 0.0),
+        (29_326.0, 10, 0.0),
+    ] {
+        let wave = Simulated::PAPER.wave();
+        for seed in 0..4 {
+            let samples = samples::Samples::simulate(&wave, periods, rate, noise, seed);
+            let errors = evaluate::errors(&samples, &wave);
+            let [fourth, exact] = [errors[3][3], errors[7][3]];
+            assert!(
+                fourth.abs() < 2.0 && exact.abs() < 2.0,
+                "{rate} {periods}: {fourth} {exact}"
+            );
+        }
+    }
+}
+
+#[test]
 fn conclusions_and_files_are_as_in_the_documentation() {
     let wave = Simulated::PAPER.wave();
     let folder = tempfile::tempdir().expect("a folder");

@@ -74,6 +74,25 @@ fn the_mean_frequency_is_that_of_both_modes_at_any_pattern_angle() {
 }
 
 #[test]
+fn phases_are_used_whatever_the_splits_add_to_a_frequency() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    // Along these patterns the frequency is on average lower than its mean, by many deviations of a row.
+    let all = [(0, "0"), (1, "0.3927"), (2, "0.7854")].map(|(seed, angle)| {
+        format!("--seconds 8 --noise 0.002 --decay-rate 0.1 --frequency-split 0.005 --frequency-angle 0.39 --angle {angle} --seed {seed}")
+    });
+    let all = joined(here, all, "--periods 1000");
+    let found = run_with(here, "resonator - --output csv", all);
+    assert_eq!(found.err, "");
+    let (frequency, std) = of_resonator(&found.out, "frequency_hz");
+    assert!(
+        (frequency - 5332.0).abs() < 4.0 * std && std < 1e-4,
+        "{}",
+        found.out
+    );
+}
+
+#[test]
 fn a_frequency_that_moves_is_reported() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();

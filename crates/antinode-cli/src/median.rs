@@ -1,9 +1,18 @@
-//! The median, which a few numbers far off all others do not move.
+//! The median of numbers, which a few far off all others do not move, and their ends.
 
 /// The median of numbers, the upper one of an even count; `None` without numbers. It changes their order.
 pub fn median(numbers: &mut [f64]) -> Option<f64> {
     let middle = numbers.len() / 2;
     (!numbers.is_empty()).then(|| *numbers.select_nth_unstable_by(middle, f64::total_cmp).1)
+}
+
+/// The smallest and the largest of numbers; infinity and minus infinity without numbers.
+pub fn ends(numbers: impl IntoIterator<Item = f64>) -> [f64; 2] {
+    let numbers = numbers.into_iter();
+    numbers.fold(
+        [f64::INFINITY, f64::NEG_INFINITY],
+        |[least, most], number| [least.min(number), most.max(number)],
+    )
 }
 
 #[cfg(test)]

@@ -5,6 +5,8 @@ use std::ops::RangeInclusive;
 
 use antinode::period::DifferenceDetector;
 
+use crate::median::ends;
+
 /// Pairs that are checked: some periods, but few enough for the rows of a pipe not to come before a warning.
 const CHECKED_PAIRS: usize = 512;
 
@@ -77,10 +79,7 @@ pub(super) fn ramp(pairs: &[[f32; 2]]) -> Option<&'static str> {
 pub(super) fn amplitude_beyond(pairs: &[[f32; 2]]) -> Option<f64> {
     let swing = |channel: usize| {
         let samples = pairs.iter().map(|pair| f64::from(pair[channel]));
-        let finite = samples.filter(|sample| sample.is_finite());
-        let [min, max] = finite.fold([f64::INFINITY, f64::NEG_INFINITY], |ends, sample| {
-            [ends[0].min(sample), ends[1].max(sample)]
-        });
+        let [min, max] = ends(samples.filter(|sample| sample.is_finite()));
         0.5 * (max - min)
     };
     let swing = swing(0).max(swing(1));

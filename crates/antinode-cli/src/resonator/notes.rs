@@ -9,6 +9,7 @@ use super::frequency::Frequency;
 use super::model::Damping;
 use super::{DECAY_SEEN, Results};
 use crate::digits::counted;
+use crate::median::ends;
 use crate::runs::{BEYOND_NOISE, Run, turn};
 
 /// Runs without a decay that are named, at most.
@@ -157,11 +158,7 @@ fn is_one_pattern(results: &Results) -> bool {
 
 /// Warns if the frequencies of runs are those of different resonators.
 fn note_others(out: &mut impl Write, frequency: &Frequency) -> io::Result<()> {
-    let each = || frequency.means.iter().map(|&(mean, _)| mean);
-    let (least, most) = (
-        each().fold(f64::INFINITY, f64::min),
-        each().fold(0.0, f64::max),
-    );
+    let [least, most] = ends(frequency.means.iter().map(|&(mean, _)| mean));
     if most - least > MAX_APART * most {
         writeln!(
             out,

@@ -3,6 +3,7 @@
 use antinode::period::DifferenceDetector;
 
 use super::super::{LONGEST_PERIOD, SHORTEST_PERIOD};
+use crate::digits::significant;
 
 /// Pairs averaged into one to detect a slow wave: periods of 128 to 6400 samples, and of 32 times as many in the means of means.
 const AVERAGED: u32 = 32;
@@ -153,8 +154,8 @@ impl UnsearchedWave {
             .map(|period| 1.0 / (0.5 - 1.0 / period))
             .filter(|_| is_fast);
         let period = slow.or(fast)?;
-        let frequency = rate / period;
-        let (frequency, period) = (rounded(frequency), rounded(period));
+        // Three digits are the accuracy of a search.
+        let [frequency, period] = [rate / period, period].map(|value| significant(value, 3));
         let seen = format!("a wave of about {frequency} Hz has {period} samples a period");
         Some(if period < SHORTEST_PERIOD {
             format!(
@@ -180,17 +181,6 @@ pub fn alias(frequency: f64, rate: f64) -> String {
     }
     let seen = (frequency - rate * (frequency / rate).round()).abs();
     format!("; if undersampled on purpose, this wave appears at {seen} Hz")
-}
-
-/// Rounds to three digits, the accuracy of a search.
-fn rounded(value: f64) -> f64 {
-    let unit = 10f64.powi(value.log10().floor() as i32 - 2);
-    // A quotient of whole numbers prints short.
-    if unit < 1.0 {
-        (value / unit).round() / (1.0 / unit).round()
-    } else {
-        (value / unit).round() * unit
-    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Whether a column of a text is its time.
 
 use super::Line;
+use crate::median::ends;
 use crate::recording::number::number;
 
 /// Largest ratio of the longest step of a time to the shortest, which rounding makes uneven.
@@ -14,10 +15,6 @@ pub(super) fn is_clock(rows: &[Line], column: usize, separator: u8, max_ratio: f
     let time = |line: &Line| number::<f64>(line.fields.get(column)?, separator);
     let times: Option<Vec<f64>> = rows.iter().map(time).collect();
     let Some(times) = times else { return false };
-    let steps = || times.windows(2).map(|pair| pair[1] - pair[0]);
-    let (least, most) = (
-        steps().fold(f64::INFINITY, f64::min),
-        steps().fold(0.0, f64::max),
-    );
+    let [least, most] = ends(times.windows(2).map(|pair| pair[1] - pair[0]));
     least > 0.0 && most <= max_ratio * least
 }

@@ -6,6 +6,7 @@ use antinode::methods::{Moments, Products, algorithm1, algorithm4, functional, p
 use antinode_sim::Wave;
 
 use super::{Conclusion, FOUR, Verdict, at, pure};
+use crate::median::ends;
 use crate::study::RATE;
 use crate::study::figure::{Figure, Name};
 use crate::study::period;
@@ -16,7 +17,7 @@ pub fn alike(first: &Figure) -> Conclusion {
     for i in 0..first.x.len() {
         // Errors below half of the search's own step of 1 Hz count as equal.
         let values = FOUR.map(|name| at(first, 'd', name, i).max(0.5));
-        let [low, high] = [f64::min, f64::max].map(|pick| values.into_iter().fold(values[0], pick));
+        let [low, high] = ends(values);
         widest = widest.max(high / low);
     }
     Conclusion {

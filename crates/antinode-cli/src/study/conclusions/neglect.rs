@@ -4,6 +4,7 @@ use antinode::methods::{Moments, Ratio, algorithm1};
 use antinode_sim::Wave;
 
 use super::{Conclusion, Verdict, at, error, phases, pure};
+use crate::median::ends;
 use crate::study::RATE;
 use crate::study::figure::{Figure, Name};
 use crate::study::samples::Samples;
@@ -48,14 +49,6 @@ fn by_ratio(wave: &Wave, samples: &Samples, gate: f64) -> f64 {
     (angle - wave.angle).to_degrees()
 }
 
-fn range(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
-    values
-        .into_iter()
-        .fold([f64::INFINITY, 0.0], |[low, high], value| {
-            [low.min(value), high.max(value)]
-        })
-}
-
 pub fn longer(wave: &Wave) -> Conclusion {
     let both = |wave: &Wave| {
         [1, 8].map(|periods| by_roots(wave, &Samples::simulate(wave, periods, RATE, 0.0, 0)).abs())
@@ -63,7 +56,7 @@ pub fn longer(wave: &Wave) -> Conclusion {
     let here = both(wave);
     let all: Vec<[f64; 2]> = phases(wave).map(|wave| both(&wave)).collect();
     let worse = all.iter().filter(|[one, eight]| eight > one).count();
-    let [one, eight] = [0, 1].map(|i| range(all.iter().map(|both| both[i])));
+    let [one, eight] = [0, 1].map(|i| ends(all.iter().map(|both| both[i])));
     Conclusion {
         claim: "Algorithm 1's angle gets worse as windows get longer, from neglecting quadrature.",
         verdict: match worse {
@@ -131,7 +124,7 @@ pub fn rougher(wave: &Wave) -> Conclusion {
             format!("{middle:.1} ({low:.1} to {high:.1}) at {gate}")
         })
         .collect();
-    let [min, max] = range(gated.iter().map(|rough| rough.bias.abs()));
+    let [min, max] = ends(gated.iter().map(|rough| rough.bias.abs()));
     Conclusion {
         claim: "Formula (13) for the angle is often an order rougher than (12); leaving out small S_C helps.",
         verdict: Verdict::confirmed_if(

@@ -6,6 +6,8 @@ use std::sync::Arc;
 use rustfft::num_complex::Complex64;
 use rustfft::{Fft, FftPlanner};
 
+use crate::median::median;
+
 /// Coefficients of the four-term Blackman–Harris window, and the share of a tone's power that it leaves: beyond [`HALF_WIDTH`] lines from a
 /// tone it leaves less than 3·10⁻⁵ of its amplitude (F. J. Harris, *On the use of windows for harmonic analysis with the discrete Fourier
 /// transform*, 1978).
@@ -123,9 +125,7 @@ impl Spectrum {
                 .filter(|other| other.abs_diff(k) > HALF_WIDTH)
                 .map(|other| powers[other])
                 .collect();
-            let middle = around.len() / 2;
-            let (_, &mut median, _) = around.select_nth_unstable_by(middle, f64::total_cmp);
-            if powers[k] <= over_median * median {
+            if median(&mut around).is_none_or(|median| powers[k] <= over_median * median) {
                 continue;
             }
             // The window's lines about a tone are nearly a parabola of logarithms.

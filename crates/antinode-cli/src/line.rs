@@ -1,4 +1,13 @@
-//! Straight lines through values at times, by least squares.
+//! Weighted means, and straight lines through values at times, by least squares.
+
+/// The mean of values, each behind its weight, and the sum of the weights.
+pub fn weighted_mean(weighted: impl Iterator<Item = [f64; 2]>) -> (f64, f64) {
+    let add = |[weights, sum]: [f64; 2], [weight, value]: [f64; 2]| {
+        [weights + weight, sum + weight * value]
+    };
+    let [weights, sum] = weighted.fold([0.0; 2], add);
+    (sum / weights, weights)
+}
 
 /// Weighted times.
 pub struct Times<T> {
@@ -13,12 +22,7 @@ pub struct Times<T> {
 impl<T: Iterator<Item = [f64; 2]> + Clone> Times<T> {
     /// Takes weights and times.
     pub fn new(weighted: T) -> Self {
-        let (weight, sum) = weighted
-            .clone()
-            .fold((0.0, 0.0), |(all, sum), [weight, time]| {
-                (all + weight, sum + weight * time)
-            });
-        let mean = sum / weight;
+        let (mean, weight) = weighted_mean(weighted.clone());
         let squares = weighted
             .clone()
             .map(|[weight, time]| weight * (time - mean) * (time - mean));

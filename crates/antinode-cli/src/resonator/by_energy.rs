@@ -8,6 +8,7 @@
 use super::SIGNIFICANT;
 use super::found::Measured;
 use super::frequency::widened;
+use crate::line::weighted_mean;
 
 /// Highest power of time if no drift is seen; the lowest and highest allowed if one is; and the highest that is computed.
 const UNSEEN_POWER: usize = 1;
@@ -145,18 +146,15 @@ impl Sums {
 
 /// Sums after removal of one common mean, and the apparent slope over the energy that a drift of 1 Hz/s in every run causes.
 pub fn without_mean(runs: &[Vec<Point>]) -> (Sums, f64) {
-    let (mut weights, mut means) = (0.0, [0.0; 2]);
-    for point in runs.iter().flatten() {
-        weights += point.weight;
-        means[0] += point.weight * point.energy;
-        means[1] += point.weight * point.excess;
-    }
+    let points = || runs.iter().flatten();
+    let (mean_energy, _) = weighted_mean(points().map(|point| [point.weight, point.energy]));
+    let (mean_excess, _) = weighted_mean(points().map(|point| [point.weight, point.excess]));
     let mut sums = Sums::default();
     let mut along_time = 0.0;
     for run in runs {
         for point in run {
-            let energy = point.energy - means[0] / weights;
-            sums.add(point.weight, energy, point.excess - means[1] / weights);
+            let energy = point.energy - mean_energy;
+            sums.add(point.weight, energy, point.excess - mean_excess);
             along_time += point.weight * energy * (point.time - run[0].time);
         }
     }

@@ -7,6 +7,7 @@ use super::drift::drift;
 use super::found::{Found, Measured, Moved};
 use super::is_alike;
 use super::stretches::{RowFrequency, stretches};
+use crate::line::weighted_mean;
 use crate::runs::{Row, Runs};
 
 /// Stretches per run to aim at, if it has that many rows.
@@ -52,7 +53,7 @@ fn is_contradicted(mean: f64, rows: &Runs, found: &Found) -> bool {
     // The mean is without the splits' part, which rows have.
     let apart = |(row, moved): (&Row, Moved)| {
         let of_row = weighed(row, &moved, found, true);
-        (of_row.weight, row.frequency - of_row.by_splits - mean)
+        [of_row.weight, row.frequency - of_row.by_splits - mean]
     };
     let (apart, weights) = weighted_mean(all.map(apart));
     let of_row = (rows.used() as f64 / weights).sqrt();
@@ -129,16 +130,9 @@ fn by_stretches(rows: &Runs, found: &Found) -> Frequency {
     }
 }
 
-/// The mean of values with these weights, and the sum of the weights.
-fn weighted_mean(weighted: impl Iterator<Item = (f64, f64)>) -> (f64, f64) {
-    let add = |(weights, sum), (weight, value)| (weights + weight, sum + weight * value);
-    let (weights, sum) = weighted.fold((0.0, 0.0), add);
-    (sum / weights, weights)
-}
-
 /// A point as [`weighted_mean`] takes it.
-fn weighted(point: &Point) -> (f64, f64) {
-    (point.weight, point.excess)
+fn weighted(point: &Point) -> [f64; 2] {
+    [point.weight, point.excess]
 }
 
 /// The mean of a run's points, Hz, and its deviation, which is wider if they scatter by more than theirs.

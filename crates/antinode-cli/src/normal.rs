@@ -71,43 +71,31 @@ impl Equations {
     /// As unknowns differ widely in size, they are scaled to a unit diagonal.
     pub fn factors(&self, more: f64) -> Option<Factors> {
         let (shared, own) = (self.shared, self.own);
+        let scale_of = |matrix: &DMatrix<f64>| matrix.diagonal().map(|entry| entry.sqrt().recip());
+        let scaled = |matrix: &DMatrix<f64>, scale: &DVector<f64>| {
+            matrix.map_with_location(|i, j, entry| {
+                let by = if i == j { 1.0 + more } else { 1.0 };
+                entry * by * scale[i] * scale[j]
+            })
+        };
         let mut whole = DMatrix::zeros(shared, shared);
         for matrix in &self.matrices {
             whole += matrix.view((0, 0), (shared, shared));
         }
+        let of_shared = scale_of(&whole);
+        whole = scaled(&whole, &of_shared);
         let mut scale = DVector::zeros(self.unknowns());
-        let scale_of = |entry: f64| entry.sqrt().recip();
-        for i in 0..shared {
-            scale[i] = scale_of(whole[(i, i)]);
-        }
-        let scaled = |(i, j): (usize, usize), entry: f64, [of_i, of_j]: [f64; 2]| {
-            let by = if i == j { 1.0 + more } else { 1.0 };
-            entry * by * of_i * of_j
-        };
-        for i in 0..shared {
-            for j in 0..shared {
-                whole[(i, j)] = scaled((i, j), whole[(i, j)], [scale[i], scale[j]]);
-            }
-        }
+        scale.rows_mut(0, shared).copy_from(&of_shared);
         let mut runs = Vec::with_capacity(self.matrices.len());
         for (run, matrix) in self.matrices.iter().enumerate() {
-            let from = shared + own * run;
-            for i in 0..own {
-                scale[from + i] = scale_of(matrix[(shared + i, shared + i)]);
-            }
-            let entry = |i: usize, j: usize| {
-                let of = |place: usize| {
-                    scale[if place < shared {
-                        place
-                    } else {
-                        place + own * run
-                    }]
-                };
-                scaled((i, j), matrix[(i, j)], [of(i), of(j)])
-            };
-            let factors =
-                DMatrix::from_fn(own, own, |i, j| entry(shared + i, shared + j)).cholesky()?;
-            let coupling = DMatrix::from_fn(own, shared, |i, j| entry(shared + i, j));
+            let mut of_run = scale_of(matrix);
+            of_run.rows_mut(0, shared).copy_from(&of_shared);
+            let mut of_own = scale.rows_mut(shared + own * run, own);
+            of_own.copy_from(&of_run.rows(shared, own));
+            let matrix = scaled(matrix, &of_run);
+            let factors = matrix.view((shared, shared), (own, own));
+            let factors = factors.into_owned().cholesky()?;
+            let coupling = matrix.view((shared, 0), (own, shared));
             let coupling = factors.l_dirty().solve_lower_triangular(&coupling)?;
             whole -= coupling.tr_mul(&coupling);
             runs.push(RunFactors { factors, coupling });

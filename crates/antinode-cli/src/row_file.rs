@@ -67,12 +67,12 @@ impl RowFile {
             (path.display().to_string(), Box::new(open_file(path)?))
         };
         let text = in_utf8(source).map_err(|fault| unreadable(&name, 1, &fault.into()))?;
-        Self::new(&name, Box::new(text))
+        Self::new(&name, text)
     }
 
     /// Reads the header.
-    pub fn new(name: &str, source: Box<dyn Read>) -> Result<Self, Failure> {
-        let mut source = BufReader::new(source);
+    pub fn new(name: &str, source: impl Read + 'static) -> Result<Self, Failure> {
+        let mut source = BufReader::new(Box::new(source) as Box<dyn Read>);
         let (head, first) =
             head(&mut source).map_err(|fault| unreadable(name, 1, &fault.into()))?;
         let first = &head[first..];
@@ -130,8 +130,13 @@ impl RowFile {
         })
     }
 
-    /// The next row; none at the end.
-    pub fn next(&mut self) -> Result<Option<&StringRecord>, Failure> {
+    /// The row last read.
+    pub fn record(&self) -> &StringRecord {
+        &self.record
+    }
+
+    /// Reads the next row; false at the end.
+    pub fn advance(&mut self) -> Result<bool, Failure> {
         loop {
             let more = match &mut self.records {
                 Records::Fields(reader) => reader.read_record(&mut self.record),
@@ -156,7 +161,7 @@ impl RowFile {
                 if more && self.is_of_another_form() {
                     return Err(self.joined());
                 }
-                return Ok(more.then_some(&self.record));
+                return Ok(more);
             }
         }
     }

@@ -208,7 +208,8 @@ impl Runs {
         let file = rows.place("file");
         let mut recordings: Vec<Recording> = Vec::new();
         let mut current = 0;
-        while let Some(record) = rows.next()? {
+        while rows.advance()? {
+            let record = rows.record();
             // The row of a lost wave may lack a time; it is then counted in any case.
             if let Some(time) = places.time(record) {
                 let [first, last] = self.span.unwrap_or([time; 2]);
@@ -221,19 +222,13 @@ impl Runs {
             let from = file.map_or("", |file| &record[file]);
             let is_its = |one: &Recording| one.file == from;
             current = recording_of(&mut recordings, current, is_its, || Recording::new(from));
-            let flags = match row_file::flags(record, flags) {
-                Ok(flags) => flags,
-                Err(unusable) => return Err(rows.unusable(unusable)),
-            };
+            let flags = row_file::flags(record, flags).map_err(|told| rows.unusable(told))?;
             if !flags.is_empty() {
                 recordings[current].leave_out(flags, self.breaks, places.way(record));
                 continue;
             }
             // Not before: a flagged row need not have numbers.
-            let row = match Row::parse(record, &places) {
-                Ok(row) => row,
-                Err(unusable) => return Err(rows.unusable(unusable)),
-            };
+            let row = Row::parse(record, &places).map_err(|told| rows.unusable(told))?;
             recordings[current].take(row, self.max_turn);
         }
         for mut recording in recordings {

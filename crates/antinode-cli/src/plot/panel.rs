@@ -233,8 +233,7 @@ mod tests {
             };
         }
         let traces =
-            read(RowFile::new("it", Box::new(std::io::Cursor::new(text.to_owned()))).unwrap())
-                .unwrap();
+            read(RowFile::new("it", std::io::Cursor::new(text.to_owned())).unwrap()).unwrap();
         figure(&traces, 800, false).unwrap()
     }
 

@@ -90,11 +90,10 @@ pub fn read(mut rows: RowFile) -> Result<Vec<Trace>, Failure> {
     let input = rows.name().to_owned();
     let mut traces: Vec<Trace> = Vec::new();
     let mut current = 0;
-    while let Some(record) = rows.next()? {
-        let row = match parse(record, time, flags, places, samples) {
-            Ok(row) => row,
-            Err(unusable) => return Err(rows.unusable(unusable)),
-        };
+    while rows.advance()? {
+        let record = rows.record();
+        let row = parse(record, time, flags, places, samples);
+        let row = row.map_err(|unusable| rows.unusable(unusable))?;
         let name = file.map_or(input.as_str(), |file| &record[file]);
         let new = || Trace {
             name: name.to_owned(),
@@ -196,7 +195,7 @@ mod tests {
             format!("{time},{samples},0.5,0,0.1,5332,0.01,{flags},{file}\n")
         });
         let text: String = std::iter::once(HEADER.to_owned()).chain(lines).collect();
-        read(RowFile::new("it", Box::new(std::io::Cursor::new(text.to_owned()))).unwrap()).unwrap()
+        read(RowFile::new("it", std::io::Cursor::new(text.to_owned())).unwrap()).unwrap()
     }
 
     /// Indices of the rows at which a line begins, apart from the first.

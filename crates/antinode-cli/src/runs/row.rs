@@ -231,11 +231,11 @@ mod tests {
                 let [a, b] = [0.5 * (plus + minus), 0.5 * (plus - minus)];
                 text += &format!("0,{a},{b},0,5332,{std},{std},{std}\n");
             }
-            let mut rows =
-                RowFile::new("a.csv", Box::new(std::io::Cursor::new(text.to_owned()))).unwrap();
+            let mut rows = RowFile::new("a.csv", std::io::Cursor::new(text.to_owned())).unwrap();
             let places = Places::of(&rows).unwrap();
             let mut sums = [0.0; 3];
-            while let Some(record) = rows.next().unwrap() {
+            while rows.advance().unwrap() {
+                let record = rows.record();
                 let row = Row::parse(record, &places).unwrap();
                 let as_printed = number(record, places.needed[1]).unwrap();
                 let values = [

@@ -31,10 +31,7 @@ fn read(rows: &str) -> Runs {
 }
 
 fn add(all: &mut Runs, text: &str) -> Result<(), Failure> {
-    all.read(RowFile::new(
-        "it",
-        Box::new(std::io::Cursor::new(text.to_owned())),
-    )?)
+    all.read(RowFile::new("it", std::io::Cursor::new(text.to_owned()))?)
 }
 
 /// Number of rows of each run.

@@ -12,6 +12,9 @@ use super::text::{MAX_LINE, fields, is_log_head, is_skipped, separator, without_
 /// Bytes read at a time while a text's first line is looked for.
 const PIECE: usize = 4096;
 
+/// The first bytes of WAV files.
+const WAV: [&[u8]; 4] = [b"RIFF", b"RIFX", b"RF64", b"BW64"];
+
 /// The kind of content that the first bytes show.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Content {
@@ -45,18 +48,7 @@ impl Content {
         match head {
             [] => Self::Nothing,
             // Raw samples may happen to contain one of these two names, but hardly both.
-            [b'R', b'I', b'F', b'F' | b'X', .., b'W', b'A', b'V', b'E'] => Self::Wav,
-            [
-                b'R' | b'B',
-                b'F' | b'W',
-                b'6',
-                b'4',
-                ..,
-                b'W',
-                b'A',
-                b'V',
-                b'E',
-            ] => Self::Wav,
+            [_, _, _, _, .., b'W', b'A', b'V', b'E'] if WAV.contains(&&head[..4]) => Self::Wav,
             [0x93, b'N', b'U', b'M', b'P', b'Y', ..] => Self::Npy,
             [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => Self::Utf16,
             _ if unmarked_utf_16(head).is_some() => Self::Utf16,

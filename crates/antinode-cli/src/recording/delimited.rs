@@ -4,7 +4,7 @@ mod fields;
 mod rows;
 
 use super::error::Fault;
-use super::gaps::{Gap, Gaps, are_lost};
+use super::gaps::{Found, Gap, Gaps, are_lost};
 use super::not_finite::Flaw;
 use super::time::{Meaning, TimeAxis, are_paired, roundest, standstill};
 use super::{OpenOptions, Opened, Source, Stream, first_of};
@@ -193,9 +193,12 @@ impl Delimited {
             let sequence = self.rows.header.sequence;
             let times =
                 [last, time].map(|time| sequence.map_or(time, |sequence| sequence.seconds(time)));
-            let is_explained = lost <= left_out;
-            self.gaps
-                .add(Gap { before, lost }, line, times, is_explained);
+            self.gaps.add(Found {
+                gap: Gap { before, lost },
+                line,
+                times,
+                is_explained: lost <= left_out,
+            });
         }
         Ok(())
     }

@@ -33,27 +33,20 @@ pub(super) struct Gaps {
     every: Option<NonZeroU32>,
 }
 
-/// A gap, and its times.
+/// A gap that was found before a line.
 #[derive(Debug, Clone, Copy)]
-struct Found {
-    gap: Gap,
-    line: u64,
-    from: f64,
-    to: f64,
+pub(super) struct Found {
+    pub gap: Gap,
+    pub line: u64,
+    /// The times before and behind it.
+    pub times: [f64; 2],
     /// Whether its samples were in lines that were left out, which are reported themselves.
-    is_explained: bool,
+    pub is_explained: bool,
 }
 
 impl Gaps {
-    /// Adds a gap that was found before this line, between these times.
-    pub fn add(&mut self, gap: Gap, line: u64, [from, to]: [f64; 2], is_explained: bool) {
-        let found = Found {
-            gap,
-            line,
-            from,
-            to,
-            is_explained,
-        };
+    /// Adds a gap.
+    pub fn add(&mut self, found: Found) {
         self.ahead.push_back(found);
     }
 
@@ -87,7 +80,7 @@ impl Gaps {
     /// The line of the first gap to be reported, and the fault that reports all; times are counts of samples if they `are_counts`.
     pub fn fault(&self, are_counts: bool) -> Option<(u64, String)> {
         let first = self.first?;
-        let Found { gap, from, to, .. } = first;
+        let [from, to] = first.times;
         let of_all = match self.count {
             1 => String::new(),
             gaps => format!(", the first of {gaps} gaps with {} samples", self.lost),
@@ -106,7 +99,7 @@ impl Gaps {
         let told = format!(
             "{} before this line ({of_times}){of_all}{every}; rows whose window spans a gap are \
              missing, all others are good; record it again without loss",
-            are_lost(gap.lost)
+            are_lost(first.gap.lost)
         );
         Some((first.line, told))
     }

@@ -71,9 +71,12 @@ impl RecordingWriter {
         let stored = pair.map(|value| self.sample.store(value));
         let [Some(c), Some(d)] = stored else {
             let channel = usize::from(stored[0].is_some());
-            return Err(self.error(format!(
-                "sample pair {} (from 0), {}: {} is not a finite number; correct the values that it is computed from",
-                self.pairs, CHANNELS[channel], pair[channel]
+            return Err(Failure::Fault(format!(
+                "{}: sample pair {} (from 0), {}: {} is not a finite number; correct the values that it is computed from",
+                self.name(),
+                self.pairs,
+                CHANNELS[channel],
+                pair[channel]
             )));
         };
         self.check_room(self.pairs + 1)?;
@@ -90,10 +93,6 @@ impl RecordingWriter {
             .finish(self.sample, self.pairs)
             .map_err(|fault| unwritable(self.whole.name(), &fault))?;
         self.whole.finish()
-    }
-
-    fn error(&self, told: String) -> Failure {
-        Failure::Fault(format!("{}: {told}", self.whole.name()))
     }
 }
 

@@ -5,56 +5,10 @@ use super::super::header::Header;
 use super::super::lines::{Line, Lines};
 use crate::digits::counted;
 
-/// The fields of a line that are to be read.
-pub(super) struct Fields<'a> {
+/// A line cut into fields.
+pub(super) struct Cut<'a> {
     /// The time and the two samples as they are written; empty if not asked for, missing, or uncertain in a broken line.
     pub texts: [&'a [u8]; 3],
-    /// The fault of a line of too many or too few fields, and a description of the line.
-    pub broken: Option<(Fault, String)>,
-}
-
-/// The fields of this line.
-pub(super) fn cut<'a>(line: Line<'a>, lines: &Lines, header: &Header) -> Fields<'a> {
-    let Cut {
-        texts,
-        count,
-        is_long,
-        short,
-    } = Cut::of(line, header);
-    let fault = if is_long {
-        let names = if count == header.width + 1 {
-            ", and write no row names (in R `row.names = FALSE`)"
-        } else {
-            ""
-        };
-        let told = format!(
-            "found {count} fields where the first line has {}; use another separator \
-             than the decimal mark, and the same one in every line{names}",
-            header.width
-        );
-        Some(Fault::line(lines.number(), told))
-    } else {
-        short.map(|role| missing(header, place(lines, header, role), role))
-    };
-    let description = || {
-        let fields = counted(count as u64, "field");
-        format!("a line of {fields} where the first has {}", header.width)
-    };
-    Fields {
-        texts,
-        broken: fault.map(|fault| (fault, description())),
-    }
-}
-
-/// The time as it is written in a line; empty as in [`Fields`].
-pub(super) fn time<'a>(line: Line<'a>, header: &Header) -> &'a [u8] {
-    Cut::of(line, header).texts[TIME]
-}
-
-/// A line cut into fields.
-struct Cut<'a> {
-    /// As in [`Fields`].
-    texts: [&'a [u8]; 3],
     /// The number of fields.
     count: usize,
     /// Whether there are too many.
@@ -64,7 +18,7 @@ struct Cut<'a> {
 }
 
 impl<'a> Cut<'a> {
-    fn of(line: Line<'a>, header: &Header) -> Self {
+    pub fn of(line: Line<'a>, header: &Header) -> Self {
         let mut found = [None; 3];
         let (mut count, mut last_is_blank) = (0, false);
         for field in line.fields() {
@@ -91,6 +45,29 @@ impl<'a> Cut<'a> {
             is_long,
             short,
         }
+    }
+
+    /// The fault of a line of too many or too few fields, and a description of the line.
+    pub fn broken(&self, lines: &Lines, header: &Header) -> Option<(Fault, String)> {
+        let (count, width) = (self.count, header.width);
+        let fault = if self.is_long {
+            let names = if count == width + 1 {
+                ", and write no row names (in R `row.names = FALSE`)"
+            } else {
+                ""
+            };
+            let told = format!(
+                "found {count} fields where the first line has {width}; use another separator \
+                 than the decimal mark, and the same one in every line{names}"
+            );
+            Fault::line(lines.number(), told)
+        } else {
+            let role = self.short?;
+            missing(header, place(lines, header, role), role)
+        };
+        let fields = counted(count as u64, "field");
+        let description = format!("a line of {fields} where the first has {width}");
+        Some((fault, description))
     }
 }
 

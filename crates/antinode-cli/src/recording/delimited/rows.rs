@@ -14,7 +14,7 @@ use super::super::not_finite::Flaw;
 use super::super::number::number;
 use super::super::printed::Printed;
 use super::super::time::TimeAxis;
-use super::fields::{Fields, cut, missing, place};
+use super::fields::{Cut, missing, place};
 
 /// Characters of a bad field that an error shows, at most.
 const MAX_SHOWN: usize = 40;
@@ -113,7 +113,8 @@ impl Rows {
 
     /// The row of a line.
     fn row(&mut self, line: Line) -> Result<Row, Fault> {
-        let Fields { texts, broken } = cut(line, &self.lines, &self.header);
+        let cut = Cut::of(line, &self.header);
+        let texts = cut.texts;
         let own_time = self.time(texts[TIME]);
         let time = own_time.map(|time| self.seconds(time));
         let is_odd = match time {
@@ -121,7 +122,7 @@ impl Rows {
             None => false,
         };
         let time = time.filter(|_| !is_odd);
-        let (broken, broken_line) = broken.unzip();
+        let (broken, broken_line) = cut.broken(&self.lines, &self.header).unzip();
         let mut pair = [f32::NAN; 2];
         // The roles of the first field that is no finite number, and of the first that does not even stand for one.
         let (mut odd, mut garbled) = (None, None);

@@ -2,7 +2,7 @@
 
 use super::super::super::error::{Fault, TIME};
 use super::super::super::time::TimeAxis;
-use super::super::fields;
+use super::super::fields::Cut;
 use super::Rows;
 
 /// Lines that are read ahead of a time that does not follow the last one, to see whether it alone is wrong: first a few, and then as many
@@ -20,7 +20,7 @@ impl Rows {
         self.lines.look_ahead(lines)?;
         let (mut times, mut printed) = (Vec::new(), self.printed);
         for line in self.lines.ahead() {
-            let text = fields::time(line, &self.header);
+            let text = Cut::of(line, &self.header).texts[TIME];
             if let Some(time) = self.time(text) {
                 printed.see(text, time, self.header.exponent);
                 times.push(self.seconds(time));
@@ -64,7 +64,7 @@ impl Rows {
             }
             self.lines.look_ahead(lines)?;
             let ahead = self.lines.ahead().take(lines);
-            let ahead = ahead.filter_map(|line| self.time(fields::time(line, &self.header)));
+            let ahead = ahead.filter_map(|line| self.time(Cut::of(line, &self.header).texts[TIME]));
             let ahead: Vec<f64> = ahead.map(|time| self.seconds(time)).collect();
             let may_be_between = self.odd < MIN_ODD + self.read / READ_PER_ODD;
             if let Some(is_odd) = axis.is_odd(time, &ahead, self.printed, may_be_between) {

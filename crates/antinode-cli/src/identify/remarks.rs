@@ -67,7 +67,7 @@ impl Remarks {
             row_scatter: RowScatter::new(settings.resolution),
             sampled_in_turn: SampledInTurn::default(),
             silence: Silence::default(),
-            tones: Tones::new(),
+            tones: Tones::default(),
             has_rows: false,
             residual: f32::INFINITY,
             frequency: 0.0,

@@ -100,11 +100,6 @@ impl Span {
         before
     }
 
-    /// Whether any pair was identified.
-    fn has_begun(&self) -> bool {
-        self.begun.is_some()
-    }
-
     /// The time of the first pair identified, s.
     pub fn offset(&self) -> f64 {
         self.time(self.begun.unwrap_or(0))
@@ -130,7 +125,7 @@ impl Span {
     pub fn missing(&self, name: &str) -> Option<Failure> {
         let (start, end) = (self.start, self.time(self.number));
         let told = match self.asked {
-            _ if self.has_begun() => return None,
+            _ if self.begun.is_some() => return None,
             [_, Some(to)] if self.end == 0 => {
                 format!("--to {to} s: the recording begins only at {start} s; give a later time")
             }
@@ -157,7 +152,7 @@ impl Span {
         let early = early.map(|from| format!("begins at {begins} s, after --from {from} s"));
         let late = late.map(|to| format!("ends at {ends:.6} s, before --to {to} s"));
         let told: Vec<String> = early.into_iter().chain(late).collect();
-        (self.has_begun() && !told.is_empty())
+        (self.begun.is_some() && !told.is_empty())
             .then(|| format!("the recording {}", told.join(", and ")))
     }
 }

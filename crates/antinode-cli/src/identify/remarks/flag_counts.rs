@@ -79,28 +79,21 @@ impl FlagCounts {
             if flagged == 1 { "is" } else { "are" },
             counts.join(", ")
         );
+        let [misfits, clipped, circular] =
+            [self.misfits_alone, self.clipped_alone, self.circular_alone];
         // A pattern may pass through a circle now and then, but does not stay.
-        let circular = if 2 * self.circular_alone > rows {
-            self.circular_alone
-        } else {
-            0
-        };
-        let misfits = if is_cause_known {
-            0
-        } else {
-            self.misfits_alone
-        };
-        for (alone, flag, remedies) in [
-            (misfits, "misfit", self.misfit_remedies()),
-            (self.clipped_alone, "clipped", CLIPPED_REMEDY.to_owned()),
-            (circular, "circular", CIRCULAR_REMEDIES.to_owned()),
+        let stays = 2 * circular > rows;
+        for (is_told, alone, flag, remedies) in [
+            (!is_cause_known, misfits, "misfit", &*self.misfit_remedies()),
+            (true, clipped, "clipped", CLIPPED_REMEDY),
+            (stays, circular, "circular", CIRCULAR_REMEDIES),
         ] {
-            if are_many(alone, rows) {
+            if is_told && are_many(alone, rows) {
                 warning += "; ";
                 if alone < flagged {
                     warning += &format!("{alone} have only {flag}: ");
                 }
-                warning += &remedies;
+                warning += remedies;
             }
         }
         Some(warning)

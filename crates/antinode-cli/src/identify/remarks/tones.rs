@@ -36,6 +36,7 @@ const THIRD_BEATS: f64 = 1.1;
 const MIN_PERIODS: f64 = 10.0;
 
 /// The spectrum of the first samples and of misfits, and what rows tell of the wave.
+#[derive(Default)]
 pub(super) struct Tones {
     /// The last pairs, up to two spectra of them.
     recent: Vec<[f32; 2]>,
@@ -52,19 +53,6 @@ pub(super) struct Tones {
 }
 
 impl Tones {
-    pub fn new() -> Self {
-        Self {
-            recent: Vec::new(),
-            spectrum: None,
-            rows: 0,
-            waves: 0,
-            frequency: 0.0,
-            angle_rate: 0.0,
-            misfits: 0,
-            clipped: 0,
-        }
-    }
-
     /// Takes the next pairs.
     pub fn see(&mut self, pairs: &[[f32; 2]]) {
         self.recent.extend(pairs);

@@ -20,7 +20,7 @@ fn cause_of_turning(
     every: u64,
     settings: &Settings,
 ) -> Option<String> {
-    let mut seen = Tones::new();
+    let mut seen = Tones::default();
     let mut deviates = Deviates(3);
     for index in 0..300u64 {
         let pairs = (200 * index..200 * (index + 1)).map(|k| {
@@ -144,7 +144,7 @@ fn the_remedy_is_what_is_not_given_yet() {
 fn no_spectrum_spans_a_gap() {
     let half = [[0.25, 0.5]; LENGTH / 2];
     for (is_gap, count) in [(false, 1), (true, 0)] {
-        let mut seen = Tones::new();
+        let mut seen = Tones::default();
         seen.see(&half);
         if is_gap {
             seen.interrupt();

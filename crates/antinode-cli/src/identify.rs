@@ -23,11 +23,12 @@ use crate::options::Format;
 use crate::progress;
 use crate::ranges::in_order;
 use crate::recording::{BLOCK_PAIRS, Columns, OpenOptions, Recording, place};
+use crate::result_file::check_is_no_input;
 use crate::rows::Rows;
 use crate::tell::tell;
 pub use options::Identify;
 use options::{MAX_PERIODS, Shown};
-use out::{Out, check_is_no_input};
+use out::Out;
 use remarks::flag_counts::FlagCounts;
 use residual::Residual;
 use stop::Stop;
@@ -54,7 +55,9 @@ pub fn run(options: &Identify) -> Result<(), Failure> {
     in_order(options.from, options.to)?;
     options.check_channels()?;
     options.check_residual()?;
-    check_is_no_input(options)?;
+    if let Some(path) = options.file() {
+        check_is_no_input("--out", path, &options.files, "is a recording")?;
+    }
     let format = options.format()?;
     warn_of_duplicates(&options.files);
     let (out, to) = Out::open(options)?;

@@ -72,16 +72,27 @@ pub fn check_residual(residual: &Path, out: Option<&Path>) -> Result<(), Failure
     Ok(())
 }
 
-/// Rejects a file to be written, which an option names, if it is one of those to be read or cannot be written.
-pub fn check(option: &str, path: &Path, rows: &[PathBuf]) -> Result<(), Failure> {
+/// Rejects a file to be written, which an option names, if it is one of those to be read; `what` says what these are.
+pub fn check_is_no_input(
+    option: &str,
+    path: &Path,
+    inputs: &[PathBuf],
+    what: &str,
+) -> Result<(), Failure> {
     let there = place(path);
-    let mut rows = rows.iter().map(|rows| place(rows));
-    if there.is_some() && rows.any(|rows| rows == there) {
+    let mut inputs = inputs.iter().map(|input| place(input));
+    if there.is_some() && inputs.any(|input| input == there) {
         return Err(Failure::Usage(format!(
-            "{option}: {} has rows to be read; give the result another name",
+            "{option}: {} {what} to be read; give the result another name",
             path.display()
         )));
     }
+    Ok(())
+}
+
+/// Rejects a file to be written, which an option names, if it is one of those of rows to be read or cannot be written.
+pub fn check(option: &str, path: &Path, rows: &[PathBuf]) -> Result<(), Failure> {
+    check_is_no_input(option, path, rows, "has rows")?;
     if stream_file::is_stream(path) {
         return stream_file::open(path).map(drop);
     }

@@ -7,7 +7,6 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use super::options::Identify;
 use crate::digits::counted;
 use crate::failure::Failure;
-use crate::recording::place;
 use crate::stream_file;
 use crate::tell::tell;
 use crate::whole_file::WholeFile;
@@ -78,21 +77,6 @@ impl Out {
     fn lock(&self) -> MutexGuard<'_, Option<WholeFile>> {
         self.whole.lock().unwrap_or_else(PoisonError::into_inner)
     }
-}
-
-/// Rejects an output file that is one of the recordings.
-pub(super) fn check_is_no_input(options: &Identify) -> Result<(), Failure> {
-    if let Some(path) = options.file()
-        && let Some(there) = place(path)
-        && let mut files = options.files.iter().filter_map(|file| place(file))
-        && files.any(|file| file == there)
-    {
-        return Err(Failure::Usage(format!(
-            "--out: {} is a recording to be read; give the rows another name",
-            path.display()
-        )));
-    }
-    Ok(())
 }
 
 /// A writer that repeats its first error for ever: what is still buffered would leave a hole behind what was written.

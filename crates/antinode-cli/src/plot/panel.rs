@@ -65,14 +65,10 @@ pub fn panel(
     let curves = traces
         .iter()
         .map(|trace| {
-            let samples = trace.rows.iter().map(|row| {
-                let (value, deviation) = sample(row, quantity, is_log).unzip();
-                Sample {
-                    time: row.time,
-                    value,
-                    deviation: deviation.unwrap_or(0.0),
-                    begins: row.begins,
-                }
+            let samples = trace.rows.iter().map(|row| Sample {
+                time: row.time,
+                value: sample(row, quantity, is_log),
+                begins: row.begins,
             });
             let mut pieces = reduce(samples, span, columns);
             for piece in &mut pieces {

@@ -7,10 +7,8 @@ use std::ops::Range;
 pub struct Sample {
     /// Time, s.
     pub time: f64,
-    /// `None` if the row has no number, where the line ends.
-    pub value: Option<f64>,
-    /// One standard deviation; 0 if there is none.
-    pub deviation: f64,
+    /// With one standard deviation, 0 if there is none; `None` if the row has no number, where the line ends.
+    pub value: Option<(f64, f64)>,
     /// True if no line leads to it.
     pub begins: bool,
 }
@@ -54,13 +52,13 @@ pub fn reduce(
     let mut begins = true;
     for sample in samples {
         begins |= sample.begins;
-        let Some(value) = sample.value else {
+        let Some((value, deviation)) = sample.value else {
             begins = true;
             continue;
         };
         let number = column(sample.time, span, columns);
         let point = (sample.time, value);
-        let edges = [value - sample.deviation, value + sample.deviation];
+        let edges = [value - deviation, value + deviation];
         match &mut current {
             // A break within a column cannot be seen.
             Some(column) if column.number == number => {
@@ -127,8 +125,7 @@ mod tests {
     fn sample(time: f64, value: f64) -> Sample {
         Sample {
             time,
-            value: Some(value),
-            deviation: 0.5,
+            value: Some((value, 0.5)),
             begins: false,
         }
     }

@@ -43,16 +43,12 @@ impl Run {
             }
         };
         let mut energies: Vec<_> = self.rows.iter().map(energy).collect();
-        raise_deviations(&mut energies);
+        // An outlier may state next to no deviation.
+        for index in 1..energies.len() {
+            let min = MIN_DEVIATION * energies[index - 1].deviation;
+            energies[index].deviation = energies[index].deviation.max(min);
+        }
         energies
-    }
-}
-
-/// Raises the deviation of an outlier that states next to none to about that of the row before it.
-fn raise_deviations(energies: &mut [Energy]) {
-    for index in 1..energies.len() {
-        let min = MIN_DEVIATION * energies[index - 1].deviation;
-        energies[index].deviation = energies[index].deviation.max(min);
     }
 }
 

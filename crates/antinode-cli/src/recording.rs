@@ -27,6 +27,7 @@ mod sample;
 mod sequence;
 mod signal_units;
 mod source;
+mod stated;
 mod text;
 mod time;
 mod units;

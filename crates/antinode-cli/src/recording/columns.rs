@@ -237,10 +237,21 @@ impl FirstLine<'_> {
         ))
     }
 
+    /// Whether a column has the name of a count, or none, but holds times: the index that pandas writes.
+    fn is_index_of_times(&self, place: usize) -> bool {
+        let start = self.start;
+        self.may_be_timed
+            && self.names.is_some_and(|names| is_count(&names[place]))
+            && start.numbers.first() == Some(&place)
+            && start.is_surely_clocked
+            && start.has_fractions
+    }
+
     /// The places that the names or the number of these columns suggest.
     fn among(&self, columns: &[usize]) -> Result<Places, String> {
         let role = |place: usize| match place {
             0 if self.has_numbers => Some(TIME),
+            _ if self.is_index_of_times(place) => Some(TIME),
             _ => self.names.and_then(|names| role(&names[place])),
         };
         let places = || columns.iter().copied();

@@ -35,6 +35,9 @@ pub(super) fn open(stream: Stream, options: &OpenOptions, live: bool) -> Result<
         ahead: Vec::new().into_iter(),
         fault: None,
     };
+    if options.rate.is_none() {
+        source.rows.header.use_stated_rate();
+    }
     let is_rate_known = live && options.rate.is_some();
     source.read_ahead(if source.rows.header.places[0].is_none() {
         FEW_LINES

@@ -6,6 +6,7 @@ use super::Stream;
 use super::error::Fault;
 use super::preamble::{self, STEADY_LINES, Start};
 use super::quoted::{self, has_decimal_commas};
+use super::stated::Stated;
 use super::text::{self, MAX_LINE};
 
 /// The beginning of a text below its settings, which [`Lines`] has still to read.
@@ -16,6 +17,8 @@ pub(super) struct Beginning {
     pub next: Vec<u8>,
     /// What was found above and in these lines.
     pub start: Start,
+    /// The sample rate that the lines above state.
+    pub stated: Option<Stated>,
 }
 
 /// Reads lines that are neither blank nor comments.
@@ -36,7 +39,8 @@ impl Lines {
     /// Opens text, and gives its first lines beside the reader.
     pub fn open(stream: Stream) -> Result<(Self, Beginning), Fault> {
         let mut stream = BufReader::with_capacity(MAX_LINE, text::with_line_ends(stream)?);
-        let (mut begun, line) = text::first_line(&mut stream)?;
+        let mut above = Vec::new();
+        let (mut begun, line) = text::first_line(&mut stream, &mut above)?;
         // Reading these lines ahead delays no row of a pipe: each row needs at least as many lines.
         let mut is_quoted = false;
         let mut start = loop {
@@ -51,9 +55,14 @@ impl Lines {
                 break start;
             }
         };
-        let begun = begun.split_off(start.bytes);
+        let samples = begun.split_off(start.bytes);
+        above.append(&mut begun);
+        let begun = samples;
         if let Some((_, unit)) = &mut start.unit {
             *unit += line as usize;
+        }
+        if let Some((_, units)) = &mut start.units {
+            *units += line as usize;
         }
         if let Some(cut) = &mut start.cut {
             *cut += line as usize;
@@ -64,6 +73,7 @@ impl Lines {
             first: first.to_vec(),
             next: next.to_vec(),
             start,
+            stated: Stated::above(&above),
         };
         let lines = Self {
             separator: text::separator(&beginning.first),

@@ -5,18 +5,17 @@
 
 mod clock;
 mod cut;
+mod names;
+mod settings;
 mod titles;
 
-use clock::{MAX_STEP_RATIO, MAX_STEP_RATIO_ALONE, is_clock};
+use clock::{MAX_STEP_RATIO, MAX_STEP_RATIO_ALONE, has_fractions, is_clock};
 
-use super::header::lossy;
-use super::heading::is_header;
+use super::columns;
 use super::no_number::stand_in;
 use super::number::is_number;
 use super::sequence::Sequence;
 use super::text::{fields, is_skipped, separator};
-use super::units::{self, bare, time_exponent};
-use super::{columns, signal_units};
 
 /// Lines in a row with numbers in the same columns that are taken for samples.
 pub(super) const STEADY_LINES: usize = 16;
@@ -48,8 +47,12 @@ pub(super) struct Start {
     pub is_clocked: bool,
     /// Whether it does so more evenly than any signal.
     pub is_surely_clocked: bool,
+    /// Whether it then holds fractions, and so does not count the samples.
+    pub has_fractions: bool,
     /// The unit of time that the settings name, and its line.
     pub unit: Option<(String, usize)>,
+    /// The units that the settings name over each column, and their line.
+    pub units: Option<(Vec<String>, usize)>,
     /// The times of the samples by the settings, for samples without a time column.
     pub sequence: Option<Sequence>,
 }
@@ -184,7 +187,7 @@ fn start(lines: &[Line], numbers: &[usize], separator: u8, garbled: usize) -> Op
         let has_word = |&place: &usize| line.fields.get(place).is_some_and(|field| is_word(field));
         has_word(&0) && numbers.iter().all(has_word)
     };
-    let names = names(lines, rows, width, separator);
+    let names = names::place(lines, rows, width, separator);
     let roles = lines
         .iter()
         .rposition(|line| is_named(line) && has_role(line));
@@ -220,8 +223,12 @@ fn start(lines: &[Line], numbers: &[usize], separator: u8, garbled: usize) -> Op
         lines: lines[first].before,
         bytes: lines[first].start,
         is_clocked: is_clock(&lines[rows..], numbers[0], separator, MAX_STEP_RATIO),
+        has_fractions: has_fractions(&lines[rows..], numbers[0], separator),
         is_surely_clocked: is_clock(&lines[rows..], numbers[0], separator, MAX_STEP_RATIO_ALONE),
-        unit: settings.iter().find_map(unit),
+        unit: settings.iter().find_map(settings::unit_of_time),
+        units: settings
+            .iter()
+            .find_map(|line| settings::units_over(line, numbers)),
         sequence: Sequence::of_settings(&fields, separator),
         cut: None,
         numbers: numbers.to_vec(),
@@ -241,48 +248,6 @@ fn are_labels(settings: &[Line]) -> bool {
     labels.len() >= MIN_LABELS && are_other && labels.iter().all(is_label)
 }
 
-/// The index of the line of names above the samples, which begin at index `rows` and have `width` columns; `rows` if there is none.
-fn names(lines: &[Line], rows: usize, width: usize, separator: u8) -> usize {
-    let Some(above) = rows.checked_sub(1) else {
-        return rows;
-    };
-    let line = &lines[above];
-    // Too few words are still a header, for its error to show: they may stand over numbers that are cut in two.
-    // Below labels, such a line is one more label.
-    let is_label = line.fields.len() < width && are_labels(&lines[..rows]);
-    let is_title = |line: &Line| titles::is_title(line, &lines[rows..], separator);
-    let is_number = |field: &&[u8]| is_number(field, separator);
-    let are_words = line.fields.len() > 1 && !line.fields.iter().any(is_number) && !is_label;
-    let mut words = line
-        .text
-        .split(|byte| b",;\t ".contains(byte))
-        .filter_map(|word| str::from_utf8(word.trim_ascii()).ok());
-    // Names separated otherwise than the numbers are no title, unless in a sentence: `Length processed: 4000 samples 0.04 seconds.`
-    let are_names = if line.fields.len() == 1 {
-        words.any(columns::is_known) && !line.text.trim_ascii_end().ends_with(b".")
-    } else if is_title(line) {
-        false
-    } else {
-        // The first line of the text, right above the samples, is its header.
-        above == 0 || are_words || line.fields.len() >= width && has_role(line)
-    };
-    let is_unit_line = || {
-        let below: Vec<&[&[u8]]> = lines[rows..].iter().map(|line| &line.fields[..]).collect();
-        let over = &lines[above - 1];
-        over.fields.len() >= width
-            && !is_title(over)
-            && is_header(&over.fields, &below, separator)
-            && are_units(line, width, above == 1, separator)
-    };
-    if above > 0 && is_unit_line() {
-        above - 1
-    } else if are_names {
-        above
-    } else {
-        rows
-    }
-}
-
 /// Whether one of the fields says what its column holds.
 fn has_role(line: &Line) -> bool {
     let mut names = line
@@ -290,32 +255,6 @@ fn has_role(line: &Line) -> bool {
         .iter()
         .filter_map(|field| str::from_utf8(field).ok());
     names.any(columns::is_known)
-}
-
-/// Whether a line holds the units of `width` columns, and no names.
-fn are_units(line: &Line, width: usize, is_second: bool, separator: u8) -> bool {
-    let fields = &line.fields[..width.min(line.fields.len())];
-    let texts: Vec<String> = fields.iter().map(|field| lossy(field)).collect();
-    let is_surely =
-        |text: &String| time_exponent(text).is_some() || signal_units::is_known(bare(text));
-    // In doubt the second line of a text is one of units: otherwise the first, with the names, would be lost.
-    let is_wide = line.fields.len() >= width || is_second;
-    units::are_units(&texts, separator)
-        && (texts.iter().any(is_surely) || is_wide && !has_role(line))
-}
-
-/// The unit of time that a line of settings names, and the number of lines before it.
-fn unit(line: &Line) -> Option<(String, usize)> {
-    let text = |field: &[u8]| lossy(field).trim_matches([':', ' ']).to_owned();
-    let label = text(line.fields.first()?)
-        .to_lowercase()
-        .replace(['_', ' '], "");
-    let is_told = ["horizontalunit", "horzunit", "hunit", "xunit", "timeunit"]
-        .iter()
-        .any(|name| label.starts_with(name));
-    let unit = line.fields[1..].iter().find(|field| !field.is_empty());
-    unit.filter(|_| is_told)
-        .map(|unit| (text(unit), line.before))
 }
 
 #[cfg(test)]

@@ -44,9 +44,13 @@ impl<R: Read> Read for Returns<R> {
     }
 }
 
-/// The first line that is neither blank nor a comment, perhaps with the next, and its number. If the line above
-/// holds names that begin with `#` for a count of lines, these come first, with `n` in place of `#`.
-pub(super) fn first_line(stream: &mut impl BufRead) -> Result<(Vec<u8>, u64), Fault> {
+/// The first line that is neither blank nor a comment, perhaps with the next, and its number; the lines above it are added to `above`, up to
+/// the length of a line. If the last of them holds names that begin with `#` for a count of lines, these come first, with `n` in place of
+/// `#`.
+pub(super) fn first_line(
+    stream: &mut impl BufRead,
+    above: &mut Vec<u8>,
+) -> Result<(Vec<u8>, u64), Fault> {
     let (mut line, mut number) = (Vec::new(), 0);
     let mut counted = None;
     loop {
@@ -66,10 +70,12 @@ pub(super) fn first_line(stream: &mut impl BufRead) -> Result<(Vec<u8>, u64), Fa
         }
         if is_skipped(&line) || is_log_head(&line) {
             counted = has_count(&line).then(|| (line.clone(), number));
+            let room = MAX_LINE.saturating_sub(above.len());
+            above.extend_from_slice(&line[..line.len().min(room)]);
             continue;
         }
-        let above = counted.filter(|(names, _)| are_as_many(names, &line));
-        let Some((mut names, of_names)) = above else {
+        let names = counted.filter(|(names, _)| are_as_many(names, &line));
+        let Some((mut names, of_names)) = names else {
             return Ok((line, number));
         };
         let has_time = has_time(&names);

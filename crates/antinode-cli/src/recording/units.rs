@@ -29,11 +29,24 @@ pub(super) fn bare(unit: &str) -> &str {
     unit.trim_matches(|letter: char| "()[]{} ".contains(letter))
 }
 
-/// The unit at the end of a column's name: `time [ms]`, `time (ms)`, `time/ms`, `time_ms`.
+/// The unit at the end of a column's name: `time [ms]`, `time (ms)`, `time/ms`, `time_ms`, and as R and MATLAB write such names,
+/// `time..ms.` and `time_ms_`.
 pub(super) fn of_name(name: &str) -> &str {
-    let end = name.trim_end_matches([']', ')', ' ']);
-    let unit = end.rsplit(['[', '(', '/', '_', ' ']).next();
+    let end = name.trim_end_matches([']', ')', ' ', '.', '_', '-']);
+    let unit = end.rsplit(['[', '(', '/', ' ', '.', '_', '-']).next();
     unit.unwrap_or_default().trim()
+}
+
+/// The unit of time in a column's name, at its end or, if that is none, wherever it stands: `time_ms_since_boot`.
+pub(super) fn of_time(name: &str) -> &str {
+    let last = of_name(name);
+    if time_exponent(last).is_some() {
+        return last;
+    }
+    let mut words = name.split(|letter: char| !letter.is_alphanumeric() && letter != '\u{fffd}');
+    words
+        .rfind(|word| matches!(time_exponent(word), Some(Some(_))))
+        .unwrap_or(last)
 }
 
 /// The unit that a column's name surely tells: `U [V]`, `in s`, `C1 in V`; empty if there is none.
@@ -62,7 +75,7 @@ pub(super) fn without_unit(name: &str) -> &str {
 
 /// Whether the brackets at the end of a time column's name hold something that is no known unit of time.
 pub(super) fn has_unknown_unit(name: &str) -> bool {
-    let unit = of_name(name);
+    let unit = of_time(name);
     is_bracketed(name) && !unit.is_empty() && time_exponent(unit).is_none()
 }
 
@@ -118,9 +131,24 @@ mod tests {
             ("Time (us)", "us"),
             ("t/ns", "ns"),
             ("time_ms", "ms"),
+            ("time..ms.", "ms"),
+            ("Channel.A..mV.", "mV"),
+            ("ChannelA_mV_", "mV"),
+            ("U-mV", "mV"),
             ("time", "time"),
         ] {
             assert_eq!(of_name(name), unit);
+        }
+        for (name, unit) in [
+            ("time_ms_since_boot", "ms"),
+            ("ms since start", "ms"),
+            ("Time (s) of the \u{fffd}s clock", "\u{fffd}s"),
+            ("time_us", "us"),
+            ("time_ms_min", "min"),
+            ("hours of time", "time"),
+            ("samples", "samples"),
+        ] {
+            assert_eq!(of_time(name), unit);
         }
         for (name, unit) in [
             ("in s", "s"),

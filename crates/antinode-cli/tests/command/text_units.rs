@@ -51,6 +51,32 @@ fn signals_are_brought_to_the_larger_unit() {
             [1.0, 1e3],
             "S_C is in Volt and S_D in millivolt: both are converted to Volt",
         ),
+        // As R and MATLAB write names.
+        (
+            "Time..s.,Channel.A..mV.,Channel.B..V.\n",
+            1.0,
+            [1e3, 1.0],
+            "S_C is in mV and S_D in V: both are converted to V",
+        ),
+        (
+            "time_ms_since_boot,ChannelA_mV_,ChannelB_V_\n",
+            1e3,
+            [1e3, 1.0],
+            "S_C is in mV and S_D in V: both are converted to V",
+        ),
+        // The units of settings.
+        (
+            "Model,X\nSample Interval,1e-5\nVertical Units,mV,V\nLabel,,\nTIME,CH1,CH2\n",
+            1.0,
+            [1e3, 1.0],
+            "S_C is in mV and S_D in V: both are converted to V",
+        ),
+        (
+            "Model,X\nVertical Units,CH1:V,CH2:mV\nTime,CH1,CH2\n",
+            1.0,
+            [1.0, 1e3],
+            "S_C is in V and S_D in mV: both are converted to V",
+        ),
     ] {
         fs::write(here.join("a.csv"), scaled(header, time, scales)).unwrap();
         let run = run(here, "identify a.csv --output csv");

@@ -20,17 +20,20 @@ pub(super) struct Cut<'a> {
 impl<'a> Cut<'a> {
     pub fn of(line: Line<'a>, header: &Header) -> Self {
         let mut found = [None; 3];
-        let (mut count, mut last_is_blank) = (0, false);
+        let (mut count, mut filled) = (0, 0);
         for field in line.fields() {
             for (text, place) in found.iter_mut().zip(header.places) {
                 if place == Some(count) {
                     *text = Some(field);
                 }
             }
-            (count, last_is_blank) = (count + 1, field.is_empty());
+            count += 1;
+            if !field.is_empty() {
+                filled = count;
+            }
         }
-        // A single separator at the end of a line does not begin another field.
-        let is_long = count > header.width + usize::from(last_is_blank);
+        // Separators at the end of a line, as spreadsheets pad it with, begin no fields.
+        let is_long = filled > header.width;
         let mut roles = 0..ROLES.len();
         let short = roles.find(|&role| header.places[role].is_some() && found[role].is_none());
         for (text, place) in found.iter_mut().zip(header.places) {

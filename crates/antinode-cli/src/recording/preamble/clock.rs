@@ -18,3 +18,10 @@ pub(super) fn is_clock(rows: &[Line], column: usize, separator: u8, max_ratio: f
     let [least, most] = ends(times.windows(2).map(|pair| pair[1] - pair[0]));
     least > 0.0 && most <= max_ratio * least
 }
+
+/// Whether a column has a number in these lines that is not whole.
+pub(super) fn has_fractions(rows: &[Line], column: usize, separator: u8) -> bool {
+    let fields = rows.iter().filter_map(|line| line.fields.get(column));
+    let mut numbers = fields.filter_map(|field| number::<f64>(field, separator));
+    numbers.any(|number| number.fract() != 0.0)
+}

@@ -32,8 +32,20 @@ pub(super) fn is_measured(text: &str) -> bool {
     text[..text.len() - unit.len()].contains(is_digit) && ["V", "s", "sec"].contains(&base)
 }
 
-/// The advice on how to turn lines with such a field into lines of numbers; none if its form is not known.
-pub(super) fn remedy(text: &str) -> Option<&'static str> {
+/// Whether a field begins as a line of ESP-IDF's logger does, `I (12345) adc: `.
+fn is_of_esp(text: &str) -> bool {
+    let level = text.strip_prefix(|letter: char| letter.is_ascii_uppercase());
+    let parts = level
+        .and_then(|rest| rest.strip_prefix(" ("))
+        .and_then(|rest| rest.split_once(") "));
+    parts.is_some_and(|(time, rest)| {
+        time.starts_with(|letter: char| letter.is_ascii_digit()) && rest.contains(':')
+    })
+}
+
+/// The advice on how to turn lines with such a field into lines of numbers; none if its form is not known, or if it is a time stamp whose
+/// column `may_be_left_out`.
+pub(super) fn remedy(text: &str, may_be_left_out: bool) -> Option<&'static str> {
     let is_stamp = |word: &str| {
         let mut parts = word.trim_start_matches('[').split(':');
         word.contains(':')
@@ -53,9 +65,8 @@ pub(super) fn remedy(text: &str) -> Option<&'static str> {
                 .is_some_and(|last| is_number(last.as_bytes(), b','))
                 || text.contains("->"))
     };
-    let is_stamped = stamp.is_some_and(is_behind);
-    // A stamp without a number behind it has a column of its own, which may be left out.
-    if stamp.is_some() && !is_stamped {
+    // A stamp without a number behind it has a column of its own.
+    if may_be_left_out && stamp.is_some_and(|stamp| !is_behind(stamp)) {
         return None;
     }
     let label = text.split([':', '=']).next().unwrap_or_default().trim_end();
@@ -70,14 +81,16 @@ pub(super) fn remedy(text: &str) -> Option<&'static str> {
             .trim_start_matches("0X")
             .chars()
             .all(|letter| letter.is_ascii_hexdigit());
-    Some(if is_stamped {
-        r"switch the terminal's time stamps off, or remove them, `sed -E 's/^.*([a-z] [A-Z][a-z]+ +[0-9]+ [0-9:]+ [0-9]{4}|[0-9]:[0-9.]+)( ->|\])?[[:blank:]]*//' FILE | antinode identify -`"
+    Some(if stamp.is_some() {
+        r"switch the terminal's time stamps off, or remove them, `sed -E 's/^.*([a-z] [A-Z][a-z]+ +[0-9]+ [0-9:.]+ [0-9]{4}|[0-9]:[0-9.]+)( ->|\])?[[:blank:]]*//' FILE | antinode identify -`"
     } else if text.starts_with("b'") {
         r#"write text instead of bytes, in Python by `line.decode()`; convert this file by `sed -E "s/^b'|(\\\\[rn])+'$//g" FILE | antinode identify -`"#
     } else if text.starts_with("{\"") {
         "convert the JSON lines to CSV, `jq -r '[.c,.d]|@csv' FILE | antinode identify -`, with the names of your two signals for c and d"
     } else if text.starts_with(['[', '(', '{', '>']) || text.ends_with([']', ')', '}']) {
         "remove the brackets, `tr -d '[](){}>' < FILE | antinode identify -`"
+    } else if is_of_esp(text) {
+        r"print without a logger, or remove what it adds, `sed -E 's/^[A-Z] \([0-9:.]+\) [^:]*: *//' FILE | antinode identify -`"
     } else if is_measured(text) {
         r"remove the units, `sed -E 's/([0-9]\.?) *(V|s|sec)/\1/g; s/([0-9]\.?) *m(V|s|sec)/\1e-3/g; s/([0-9]\.?) *(u|µ)(V|s|sec)/\1e-6/g; s/([0-9]\.?) *n(V|s|sec)/\1e-9/g' FILE | antinode identify -`"
     } else if is_label {
@@ -138,6 +151,9 @@ mod tests {
             ("[12:34:56.000]755", Some("switch")),
             ("Thu Nov 26 10:00:00 2026", None),
             ("Thu Nov 26 10:00:00 2026 -755", Some("switch")),
+            ("[Thu Nov 26 10:00:00.460 2026] -755", Some("switch")),
+            ("I (12345) adc: 755", Some("print without a logger")),
+            ("I (12345) 755", None),
             ("> 755", Some("remove the brackets")),
             (">", Some("remove the brackets")),
             ("0.398V", Some("remove the units")),
@@ -147,12 +163,14 @@ mod tests {
             ("V", None),
             ("", None),
         ] {
-            let found = remedy(text);
+            let found = remedy(text, true);
             let is_expected = match expected {
                 Some(expected) => found.is_some_and(|found| found.starts_with(expected)),
                 None => found.is_none(),
             };
             assert!(is_expected, "{text}: {found:?}");
         }
+        let told = remedy("2024-05-01 12:34:56.000", false);
+        assert!(told.is_some_and(|told| told.starts_with("switch")));
     }
 }

@@ -164,6 +164,21 @@ fn the_command_in_the_message_makes_plain_numbers() {
             "stamps",
             lines(|_, [c, d]| format!("Thu Nov 26 10:00:00 2026 {c},{d}")),
         ),
+        (
+            "1:1",
+            "stamps",
+            lines(|_, [c, d]| format!("[Thu Nov 26 10:00:00.460 2026] {c},{d}")),
+        ),
+        (
+            "1:1",
+            "stamps",
+            lines(|_, [c, d]| format!("2026-11-26 10:00:00\t{c},{d}")),
+        ),
+        (
+            "1:1",
+            "logger",
+            lines(|k, [c, d]| format!("I ({k}) adc: {c},{d}")),
+        ),
     ] {
         fs::write(here.join("a.csv"), &text).unwrap();
         let place = format!("a.csv:{place}: ");

@@ -26,6 +26,9 @@ const ZIP: &[u8] = b"PK\x03\x04";
 /// The beginning of a LeCroy waveform, which announces a length of nine digits; a comment may begin so too.
 const LECROY: &[u8] = b"#9";
 
+/// The beginning of candump's times, `(1600000000.123456) can0`.
+const CANDUMP_TIME: &[u8] = b"(1";
+
 /// Longest mark, in bytes, that may begin a text by chance.
 const MAX_TEXT_LIKE: usize = 4;
 
@@ -41,6 +44,10 @@ const SCOPE: &str = "save the waveforms as CSV, on the oscilloscope or by its ma
 const SOX: &str = "convert it, `sox FILE -t wav - | antinode identify -`";
 const LOSSY: &str = "its compression is lossy: record WAV or FLAC; only for a quick look, `sox FILE -t wav - | antinode identify -`";
 const SHEET: &str = "save its sheet as CSV";
+const SPICE: &str = "write WAV, which has even steps, by the directive `.wave both.wav 32 100k V(c) V(d)` of LTspice, with the names of your \
+                     two signals for c and d; they are clipped at 1 V";
+const CANDUMP: &str = "if each frame begins with S_C and S_D, 16 bits each, least significant byte first (otherwise put `s>2` for s<2), \
+                       `perl -ne 'print join(\",\", unpack(\"s<2\", pack(\"H*\", $1))), \"\\n\" if /#([0-9A-F]{8})/' FILE | antinode identify -`";
 const UNZIP: &str = "if it holds only one recording, `unzip -p FILE | antinode identify -`; otherwise unpack it first";
 
 /// MATLAB files of level 4, which have no mark: they are recognised by their extension alone.
@@ -49,7 +56,7 @@ const ARRAYS: Foreign = of(ZIP, 0, "an NPZ archive of NumPy", NPZ);
 const WORKBOOK: Foreign = of(ZIP, 0, "a spreadsheet", SHEET);
 const ARCHIVE: Foreign = of(ZIP, 0, "a ZIP archive", UNZIP);
 
-static KNOWN: [Foreign; 33] = [
+static KNOWN: [Foreign; 35] = [
     of(b"MATLAB 5.0 M", 0, "a MATLAB file", MATLAB),
     of(b"MATLAB 7.3 M", 0, "a MATLAB file", MATLAB),
     of(b"Octave-1-", 0, "a binary file of Octave", MATLAB),
@@ -116,6 +123,8 @@ static KNOWN: [Foreign; 33] = [
     of(b":WFMO", 0, "a waveform of Tektronix (.isf)", SCOPE),
     of(b"WAVEDESC", 0, "a waveform of LeCroy (.trc)", SCOPE),
     of(b"WAVEDESC", 11, "a waveform of LeCroy (.trc)", SCOPE),
+    of(b"Title: * ", 0, "a file of LTspice (.raw)", SPICE),
+    of(b") can", 18, "a log of candump", CANDUMP),
     of(b"AG01", 0, "a waveform of Keysight (.bin)", SCOPE),
     of(b"AG03", 0, "a waveform of Keysight (.bin)", SCOPE),
     of(b"AG10", 0, "a waveform of Keysight (.bin)", SCOPE),
@@ -143,7 +152,9 @@ impl Foreign {
 
     /// How many of the first bytes are needed to identify a file, given the first few.
     pub fn head_bytes(few: &[u8]) -> usize {
-        let is_more = few.starts_with(ZIP) || few.starts_with(LECROY);
+        let is_more = [ZIP, LECROY, CANDUMP_TIME]
+            .iter()
+            .any(|mark| few.starts_with(mark));
         if is_more { MORE_BYTES } else { FEW_BYTES }
     }
 

@@ -199,6 +199,32 @@ fn the_command_in_the_message_makes_plain_numbers() {
     }
 }
 
+#[cfg(unix)]
+#[test]
+fn the_command_in_the_message_reads_frames_of_candump() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let codes = WAVE.codes(5000);
+    let plain: String = codes.iter().map(|[c, d]| format!("{c},{d}\n")).collect();
+    let frame = |[c, d]: &[i16; 2]| {
+        let [c, d] = [c, d].map(|code| {
+            code.to_le_bytes()
+                .map(|byte| format!("{byte:02X}"))
+                .concat()
+        });
+        format!("(1600000000.123456) can0 123#{c}{d}00\n")
+    };
+    let log: String = codes.iter().map(frame).collect();
+    fs::write(here.join("a.log"), log).unwrap();
+    let run = run_with(here, "identify a.log", Vec::new());
+    assert!(
+        run.err.contains("a.log: this is a log of candump"),
+        "{}",
+        run.err
+    );
+    assert_eq!(converted(here, &run.err), plain);
+}
+
 #[test]
 fn a_column_of_stamps_may_be_left_out() {
     let directory = tempfile::tempdir().unwrap();

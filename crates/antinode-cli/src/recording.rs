@@ -1,6 +1,7 @@
 //! Recordings of the two pick-off signals: read from WAV, text, NPY and raw samples, and written.
 
 mod by_content;
+mod clocks;
 mod codes;
 mod columns;
 mod content;

@@ -85,6 +85,8 @@ pub(super) struct FirstLine<'a> {
     pub may_be_timed: bool,
     /// True if the first column numbers the samples, which stands for the time.
     pub has_numbers: bool,
+    /// The columns that go up as times do.
+    pub clocks: Vec<usize>,
     /// What was found in the lines above and below.
     pub start: &'a Start,
     /// True for what `antinode identify` prints, as CSV, as JSON lines or as a table.
@@ -294,9 +296,25 @@ impl FirstLine<'_> {
             _ if self.is_of_rows => Err(ROWS.to_owned()),
             _ => {
                 let are_words = self.names.is_some() && self.start.numbers.is_empty();
-                Err(wrong_count(columns.len(), are_words))
+                Err(self
+                    .pasted(columns)
+                    .unwrap_or_else(|| wrong_count(columns.len(), are_words)))
             }
         }
+    }
+
+    /// What is wrong with these columns if they are those of two files of one channel each, with a time each.
+    fn pasted(&self, columns: &[usize]) -> Option<String> {
+        let [time, c, other, d] = columns else {
+            return None;
+        };
+        let is_clock = |place| self.clocks.contains(place);
+        let are_pasted = [time, other].into_iter().all(is_clock) && !is_clock(c) && !is_clock(d);
+        let [time, c, other, d] = [time, c, other, d].map(|place| place + 1);
+        are_pasted.then(|| format!(
+            "found 4 columns, but two (S_C, S_D) or three (time in s, S_C, S_D) are needed; if {time} and {other} are the times of {c} and \
+             {d}, give --columns {time},{c},{d}"
+        ))
     }
 }
 

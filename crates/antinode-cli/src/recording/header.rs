@@ -4,6 +4,7 @@ mod column_units;
 
 use column_units::SignalUnits;
 
+use super::clocks::{self, clocks};
 use super::columns::{Columns, FirstLine, Places};
 use super::error::Fault;
 use super::heading::is_header;
@@ -56,6 +57,7 @@ impl Header {
         let rows: Vec<&[&[u8]]> = below.iter().map(Vec::as_slice).collect();
         let names = &names[..without_padding(&names, &rows)];
         let is_header = is_header(names, &rows, separator);
+        let clocks = clocks(&rows, separator);
         let [names, below] = [names, rows.first().unwrap_or(&&[][..])]
             .map(|fields| fields.iter().map(|field| lossy(field)).collect::<Vec<_>>());
         let width = names.len();
@@ -70,6 +72,7 @@ impl Header {
             width: columns,
             may_be_timed: start.sequence.is_none() && (counted.is_none() || has_numbers),
             has_numbers,
+            clocks: clocks.iter().map(|clock| clock.place).collect(),
             start,
             is_of_rows: is_of_rows(first, next),
         };
@@ -107,6 +110,8 @@ impl Header {
             let doubt = header.doubt_time(names, start)?;
             header.warnings.extend(doubt);
         }
+        let differ = clocks::warning(&clocks, places, header.exponent);
+        header.warnings.extend(differ);
         Ok(header)
     }
 

@@ -9,7 +9,8 @@ mod names;
 mod settings;
 mod titles;
 
-use clock::{MAX_STEP_RATIO, MAX_STEP_RATIO_ALONE, has_fractions, is_clock};
+pub(super) use clock::MAX_STEP_RATIO;
+use clock::{MAX_STEP_RATIO_ALONE, has_fractions, is_clock};
 
 use super::columns;
 use super::no_number::stand_in;

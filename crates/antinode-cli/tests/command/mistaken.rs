@@ -1,6 +1,8 @@
 //! `antinode identify` on samples that are not what they are taken for: rows would look plausible.
 
-use crate::common::{RATE, WAVE, Wave, done, fault, npy, raw, run, run_with, text, wav};
+use crate::common::{
+    RATE, Row, WAVE, Wave, done, fault, npy, raw, rows_of, run, run_with, text, wav,
+};
 
 #[test]
 fn one_pick_off_stored_after_the_other_is_reported() {
@@ -118,6 +120,57 @@ fn a_time_among_raw_samples_is_reported() {
                 assert!(run.err.contains(part), "{bits}: {}", run.err);
             }
             assert_eq!(run.err.lines().count(), parts.len(), "{}", run.err);
+        }
+    }
+}
+
+#[test]
+fn signals_with_times_that_differ_are_reported() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let codes = WAVE.codes(5000);
+    let expected = rows_of(here, &text(&codes), "--to 0.045");
+    // S_D begins so many samples later.
+    for (late, told) in [
+        (0, None),
+        (
+            3,
+            Some(
+                "differ by 3.00 samples, but both signals are read with those in column 1; give --skew-ns=30000,",
+            ),
+        ),
+        (
+            200,
+            Some(
+                "differ by 200.00 samples, but both signals are read with those in column 1; leave out",
+            ),
+        ),
+    ] {
+        let pairs = codes.iter().zip(&codes[late..]).enumerate();
+        let pasted: String = pairs
+            .map(|(k, ([c, _], [_, d]))| {
+                let [time, own] = [k, k + late].map(|k| k as f64 / RATE);
+                format!("{time:.5},{c},{own:.5},{d}\n")
+            })
+            .collect();
+        std::fs::write(here.join("a.csv"), pasted).unwrap();
+        let run = run(
+            here,
+            "identify --output csv a.csv --columns 1,2,4 --skew-ns=30000 --to 0.045",
+        );
+        let Some(told) = told else {
+            assert_eq!(run.err, "");
+            continue;
+        };
+        let told = format!(
+            "warning: a.csv: the times of S_C in column 1 and those of S_D in column 3 {told}"
+        );
+        assert!(run.err.starts_with(&told), "{}", run.err);
+        if late == 3 {
+            // The remedy works.
+            let amplitude = |rows: &[Row]| rows[0].number("main_amplitude");
+            let found = amplitude(&Row::all(&run.out)) / 32_768.0;
+            assert!((found / amplitude(&expected) - 1.0).abs() < 1e-3, "{found}");
         }
     }
 }

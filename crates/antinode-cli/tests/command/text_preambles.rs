@@ -182,6 +182,8 @@ fn a_file_of_one_channel_is_refused_and_two_side_by_side_are_read() {
     let [c, d] = [0, 1].map(beside);
     let told = "found the time and one signal, but both S_C and S_D are needed; export both channels to one file";
     fault(here, "- --rate 1e5", c.clone().into(), &["input:1: ", told]);
+    let columns = "if 4 and 10 are the times of 5 and 11, give --columns 4,5,11";
+    fault(here, "-", pasted(&c, &d).into(), &["input:1: ", columns]);
     same(here, &pasted(&c, &d), "--columns 4,5,11", &expected, START);
     let above = LECROY.replace("Ampl1,Ampl2", "Ampl");
     let [c, d] = [0, 1].map(|channel| {
@@ -260,7 +262,7 @@ fn both_channels_of_gw_instek_side_by_side_are_read() {
         here,
         "-",
         both.into(),
-        &["input:12: found 4 columns", "--columns TIME,C,D"],
+        &["input:12: found 4 columns", "give --columns 1,2,4"],
     );
 }
 

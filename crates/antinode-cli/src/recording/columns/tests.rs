@@ -13,6 +13,7 @@ fn places(header: &str, chosen: Option<&str>) -> Result<Places, String> {
         width: names.len(),
         may_be_timed: true,
         has_numbers: false,
+        clocks: vec![0, 2],
         start: &Start::default(),
         is_of_rows: false,
     };
@@ -169,7 +170,12 @@ fn errors_name_the_columns() {
     let fault = |header, chosen| places(header, chosen).unwrap_err();
     assert!(fault("a", None).starts_with("found 1 column, but two"));
     assert!(fault("time,x", None).starts_with("found the time and one signal, but both"));
-    assert!(fault("a,b,x,y", None).starts_with("found 4 columns, but two"));
+    assert!(fault("a,b,x,y,z", None).starts_with("found 5 columns, but two"));
+    let pasted = fault("a,b,x,y", None);
+    assert!(
+        pasted.ends_with("if 1 and 3 are the times of 2 and 4, give --columns 1,2,4"),
+        "{pasted}"
+    );
     assert!(fault(&many, None).contains("of a line for each channel in Python"));
     assert!(fault("a,b", Some("a,e")).starts_with("there is no column `e`; choose among `a`, `b`"));
     assert!(fault("a,b", Some("0,1")).starts_with("there is no column `0`"));

@@ -5,7 +5,7 @@ use crate::median::ends;
 use crate::recording::number::number;
 
 /// Largest ratio of the longest step of a time to the shortest, which rounding makes uneven.
-pub(super) const MAX_STEP_RATIO: f64 = 1.5;
+pub(in crate::recording) const MAX_STEP_RATIO: f64 = 1.5;
 
 /// The same if nothing else suggests a time: a wave bends more within these lines, even at 1024 samples a period.
 pub(super) const MAX_STEP_RATIO_ALONE: f64 = 1.0001;

@@ -33,6 +33,7 @@ mod text;
 mod time;
 mod units;
 mod wav;
+mod wrapped;
 mod write;
 
 use std::cell::Cell;
@@ -148,9 +149,10 @@ impl Recording {
         }
     }
 
-    /// A warning that can be given only once all is read.
-    pub fn late_warning(&self) -> Option<String> {
-        self.opened.source.text()?.late_warning()
+    /// The warnings that can be given only once all is read.
+    pub fn late_warnings(&self) -> impl Iterator<Item = String> {
+        let text = self.opened.source.text();
+        text.into_iter().flat_map(Delimited::late_warnings)
     }
 
     /// The bytes read so far.

@@ -200,13 +200,13 @@ impl<'a> Windows<'a> {
         let first = self.first.rest();
         let mistaken = first.and_then(|first| self.begin(&first).err());
         let name = self.name;
-        let late = recording.late_warning();
+        let late = recording.late_warnings();
         let seconds = self.core.index() as f64 / self.rate;
         let span = self.span.warning().filter(|_| fault.is_none());
         let step = recording.resolution_so_far();
         let remarks = self.remarks.warnings(step, &self.span, seconds);
         let scale = self.search.scale_warning().filter(|_| rows.count() > 0);
-        for warning in late.into_iter().chain(span).chain(remarks).chain(scale) {
+        for warning in late.chain(span).chain(remarks).chain(scale) {
             tell(format_args!("warning: {name}: {warning}"));
         }
         let unwritten = self.residual.finish().err();

@@ -287,9 +287,10 @@ impl Delimited {
         Some(self.rows.header.time_fault(line, &fault))
     }
 
-    /// A warning about the samples delivered that could not be given before.
-    pub fn late_warning(&self) -> Option<String> {
-        self.times()?.late_warning(self.used)
+    /// The warnings about the samples delivered that could not be given before.
+    pub fn late_warnings(&self) -> impl Iterator<Item = String> {
+        let warnings = |axis: &TimeAxis| [axis.late_warning(self.used), axis.coarse_warning()];
+        self.times().map(warnings).into_iter().flatten().flatten()
     }
 
     /// The first sample that is not a finite number, with its place.

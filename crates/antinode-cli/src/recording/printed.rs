@@ -8,6 +8,8 @@ pub(super) struct Printed {
     digits: i32,
     /// True once a time has been seen that single precision does not hold.
     is_double: bool,
+    /// True once a time has been seen with a point or an exponent.
+    has_point: bool,
 }
 
 impl Printed {
@@ -35,20 +37,43 @@ impl Printed {
         let is_padded = point && last == b'0';
         self.is_double = self.is_double || !is_single(value, decimals, is_padded);
         self.decimals = self.decimals.max(decimals.saturating_sub(exponent));
+        self.has_point = self.has_point || point || own.is_some();
         self.digits = self.digits.max(digits);
     }
 
     /// The step between neighbouring printed times near `seconds`, s.
     pub fn step(self, seconds: f64) -> f64 {
+        self.last_digit(seconds).max(self.precision(seconds))
+    }
+
+    /// Largest deviation of a printed time from the true one near `seconds`, s.
+    pub fn error(self, seconds: f64) -> f64 {
+        // A number of single precision is rounded twice: as a number and as the shortest text of it.
+        0.5 * self.last_digit(seconds) + self.precision(seconds)
+    }
+
+    fn last_digit(self, seconds: f64) -> f64 {
         let magnitude = seconds.abs().log10().floor().max(-300.0) as i32;
-        let by_digits = 10f64.powi(magnitude + 1 - self.digits);
+        // Whole numbers have all their digits.
+        let by_digits = match self.has_point {
+            true => 10f64.powi(magnitude + 1 - self.digits),
+            false => 0.0,
+        };
+        10f64.powi(-self.decimals).max(by_digits)
+    }
+
+    fn precision(self, seconds: f64) -> f64 {
         let single = seconds.abs() as f32;
-        let precision = if self.is_double {
+        if self.is_double {
             f64::EPSILON * seconds.abs()
         } else {
             f64::from(single.next_up()) - f64::from(single)
-        };
-        10f64.powi(-self.decimals).max(by_digits).max(precision)
+        }
+    }
+
+    /// True if all times so far are whole numbers in their own unit.
+    pub fn are_integers(self) -> bool {
+        !self.has_point
     }
 
     /// True if all times so far are whole numbers of seconds.

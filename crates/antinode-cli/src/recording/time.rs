@@ -1,8 +1,18 @@
 //! The time column of a text recording: its sample rate, and the check that its times keep to that rate.
 
+mod late;
+mod meaning;
 mod odd;
+mod phase;
+mod rounded;
+mod still;
+
+pub(super) use meaning::Meaning;
+pub(super) use still::{are_paired, standstill};
 
 use odd::is_forward;
+use phase::Phase;
+use still::{backwards, coarse};
 
 use super::printed::Printed;
 use crate::digits::significant;
@@ -14,8 +24,11 @@ const STEP_TOLERANCE: f64 = 0.01;
 /// Rounding of times, in samples, beyond which it hides a lost sample.
 const MAX_ROUNDING: f64 = 0.25;
 
-/// Fewest lines in which times that each stand twice are no accident.
-const MIN_PAIRED: usize = 8;
+/// Rounding, in samples, from which on neighbouring times do not tell a lost sample from none.
+const MOST_UNCHECKED: f64 = 0.5;
+
+/// Times that may look coarse among the first: one that is wrong, or a round one in shortest form.
+const FEW_COARSE: usize = 2;
 
 /// Fewest uneven steps whose equal distances, to two lines, are no chance.
 const MIN_REGULAR: usize = 6;
@@ -25,29 +38,6 @@ const RATE_LINES: u64 = 1 << 16;
 
 /// Largest relative difference of two rates that count as the same.
 const SAME_RATE: f64 = 1e-3;
-
-/// The meaning of a time column in view of the rate asked for.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Meaning {
-    /// The samples' times.
-    Time,
-    /// Seconds, or the numbers of the lines.
-    PerhapsIndex,
-    /// The numbers of the lines.
-    Index,
-    /// Times of another rate than the one asked for; both in Hz.
-    OtherRate { own: f64, asked: f64 },
-}
-
-impl Meaning {
-    /// The meaning of times with their `own` rate if a rate is `asked` for, both in Hz.
-    pub fn of_rate(own: f64, asked: Option<f64>) -> Self {
-        match asked {
-            Some(asked) if (asked / own - 1.0).abs() > SAME_RATE => Self::OtherRate { own, asked },
-            _ => Self::Time,
-        }
-    }
-}
 
 /// The sample rate, which is as steady as a clock, and the last time that kept to it.
 pub(super) struct TimeAxis {
@@ -74,11 +64,36 @@ pub(super) struct TimeAxis {
     uncertainty: f64,
     /// Rounding up to this, s, does no harm: the first steps are even in spite of it.
     harmless: f64,
+    /// Where the true time of the last sample lies.
+    phase: Phase,
+    /// The coarsest rounding, s, that did harm.
+    coarsest: f64,
 }
 
 impl TimeAxis {
-    /// Finds the rate of the `first` times; none if there are not two, or if time mostly stands still.
+    /// Finds the rate of the `first` times; none if there are not two, or if these do not show a rate.
     pub fn of(first: &[f64], printed: Printed) -> Option<Self> {
+        let even = Self::of_even_steps(first, printed);
+        let is_coarse = |axis: &Self, time: f64| axis.is_coarse(axis.rounding(time, printed));
+        let is_even = |axis: &Self| {
+            let mut coarse = first.iter().filter(|&&time| is_coarse(axis, time));
+            coarse.nth(FEW_COARSE).is_none()
+        };
+        if even.as_ref().is_some_and(is_even) {
+            return even;
+        }
+        let rounded = rounded::steps(first, printed);
+        let rounded = rounded.map(|steps| Self::of_rounded(first, printed, steps));
+        rounded.or_else(|| {
+            // Steps of fewer than two last digits may be those of another rate.
+            let mut axis = even?;
+            axis.harmless = MOST_UNCHECKED * axis.step;
+            is_even(&axis).then_some(axis)
+        })
+    }
+
+    /// Finds the rate from the median of the steps; none if time mostly stands still.
+    fn of_even_steps(first: &[f64], printed: Printed) -> Option<Self> {
         let [start, .., _] = first else { return None };
         let steps: Vec<f64> = first.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let median = median(&mut steps.clone())?;
@@ -86,7 +101,7 @@ impl TimeAxis {
             return None;
         }
         // The first time may be wrong like any other.
-        let is_near = |step: f64| (step - median).abs() < 0.5 * median;
+        let is_near = |step: f64| (step - median).abs() < 0.51 * median;
         let start = match steps[..] {
             [own, next, after, ..]
                 if !is_forward(own / median, MAX_ROUNDING) && is_near(next) && is_near(after) =>
@@ -109,7 +124,7 @@ impl TimeAxis {
         // A change of the rate makes many uneven steps too, but these are alike: only the first of them counts.
         let is_off = |step: f64, usual: f64| ((step - usual) / mean).abs() > STEP_TOLERANCE;
         let ragged: Vec<usize> = (0..steps.len())
-            .filter(|&at| is_off(steps[at], mean))
+            .filter(|&at| is_off(steps[at], median))
             .filter(|&at| at == 0 || is_off(steps[at], steps[at - 1]))
             .collect();
         // Rounding makes uneven steps at equal distances if the step is no multiple of the last digit; faults do not.
@@ -119,8 +134,27 @@ impl TimeAxis {
                 .max()
                 .zip(apart().min())
                 .is_some_and(|(most, least)| most - least <= 2);
-        let rounding = printed.step(start);
-        Some(Self {
+        let mut axis = Self::new(start, rate, uncertainty, printed);
+        // A few uneven steps are faults; many or regular ones come from the rounding.
+        if !(is_regular || ragged.len() > 2 && 10 * ragged.len() > steps.len()) {
+            axis.harmless = 2.0 * printed.step(start);
+        }
+        Some(axis)
+    }
+
+    /// The axis of rounded times, explained by any step between these, s.
+    fn of_rounded(first: &[f64], printed: Printed, [least, most]: [f64; 2]) -> Self {
+        let (slow, fast) = (1.0 / most, 1.0 / least);
+        let rate = roundest(0.5 * (slow + fast), 0.5 * (fast - slow));
+        // The first time may be wrong like any other.
+        let is_late = first.iter().skip(1).take(2).all(|next| *next < first[0]);
+        let start = first[usize::from(is_late)];
+        Self::new(start, rate, most - least, printed)
+    }
+
+    /// An axis of this `rate`, Hz, whose step has an `uncertainty`, s.
+    fn new(start: f64, rate: f64, uncertainty: f64, printed: Printed) -> Self {
+        Self {
             rate,
             rate_uncertainty: uncertainty,
             start,
@@ -128,17 +162,14 @@ impl TimeAxis {
             drifted: None,
             step: 1.0 / rate,
             last: start,
-            rounding,
+            rounding: printed.step(start),
             anchor: start,
             lines: 0,
             uncertainty,
-            // A few uneven steps are faults; many or regular ones come from the rounding.
-            harmless: if is_regular || ragged.len() > 2 && 10 * ragged.len() > steps.len() {
-                0.0
-            } else {
-                2.0 * rounding
-            },
-        })
+            harmless: 0.0,
+            phase: Phase::near(start, printed.error(start)),
+            coarsest: 0.0,
+        }
     }
 
     /// The sample rate of the first lines, Hz.
@@ -149,64 +180,6 @@ impl TimeAxis {
     /// Whether the column counts the samples, one by one.
     pub fn is_count(&self, printed: Printed) -> bool {
         self.rate == 1.0 && printed.is_whole()
-    }
-
-    /// The meaning of the column if the rate `asked` is asked for, Hz.
-    pub fn meaning(&self, printed: Printed, asked: Option<f64>) -> Meaning {
-        let meaning = Meaning::of_rate(self.rate, asked);
-        // An index goes up by one whole a line; so may seconds.
-        let is_like_index = self.is_count(printed);
-        match (asked, meaning) {
-            (None, _) if is_like_index => Meaning::PerhapsIndex,
-            (Some(_), Meaning::OtherRate { .. }) if is_like_index => Meaning::Index,
-            _ => meaning,
-        }
-    }
-
-    /// The latest rate, Hz, if it is no longer that of the first lines, and how much later than by the rate of the first lines the last
-    /// time is, s.
-    fn drift(&self) -> Option<(f64, f64)> {
-        let late = self.last - self.start - self.count as f64 / self.rate;
-        self.drifted.map(|rate| (rate, late))
-    }
-
-    /// The rate of all lines, Hz, and how much later than by another `rate` the last time is, s; none if rounding and half a sample explain
-    /// the difference.
-    fn beside(&self, rate: f64) -> Option<(f64, f64)> {
-        let length = self.last - self.start;
-        let late = length - self.count as f64 / rate;
-        if late.abs() <= 0.5 / rate + 2.0 * self.rounding {
-            return None;
-        }
-        let own = self.count as f64 / length;
-        Some((roundest(own, own * self.rounding / length), late))
-    }
-
-    /// The warning about a rate that drifts or differs from the one `used`, Hz, which is none if the rate in use is not that of the times.
-    pub fn late_warning(&self, used: Option<f64>) -> Option<String> {
-        // Where the time column is late, rows are early.
-        let apart = |late: f64| {
-            let side = if late < 0.0 { "later" } else { "earlier" };
-            format!(
-                "at the last sample times of rows are {:.1e} s {side} than the time column",
-                late.abs()
-            )
-        };
-        if let Some((rate, late)) = self.drift() {
-            return Some(format!(
-                "the sample rate in the time column drifts slowly from {:.3} Hz to {rate:.3} Hz; times and frequencies of rows use the \
-                 first of these, and {}; resample the recording to a constant rate if that matters",
-                self.rate,
-                apart(late)
-            ));
-        }
-        let used = used?;
-        let (rate, late) = self.beside(used)?;
-        Some(format!(
-            "the whole time column gives a sample rate of {rate} Hz; times and frequencies of rows use {used} Hz, and {}; give --rate {rate} \
-             if that matters",
-            apart(late)
-        ))
     }
 
     /// The last time taken.
@@ -222,10 +195,27 @@ impl TimeAxis {
     /// Checks the time of the next line: gives the number of samples lost before it, or how it breaks the rate.
     pub fn check(&mut self, now: f64, printed: Printed) -> Result<u64, String> {
         let rounding = self.rounding(now, printed);
-        let lost = if self.is_next(now, printed) {
-            0
+        let is_coarse = self.is_coarse(rounding);
+        let lost = if is_coarse {
+            let (lost, phase) = self.fewest_lost(now, printed).ok_or_else(|| {
+                if now > self.last {
+                    coarse(rounding * self.step, self.step)
+                } else {
+                    backwards(self.last, now)
+                }
+            })?;
+            self.phase = phase;
+            self.coarsest = self.coarsest.max(rounding * self.step);
+            lost
         } else {
-            self.lost(now, rounding)?
+            let is_next = self.is_next(now, printed);
+            let lost = if is_next {
+                0
+            } else {
+                self.lost(now, rounding)?
+            };
+            self.phase = Phase::near(now, printed.error(now));
+            lost
         };
         self.last = now;
         self.rounding = printed.step(now);
@@ -234,7 +224,8 @@ impl TimeAxis {
         if self.lines < RATE_LINES {
             return Ok(lost);
         }
-        let length = now - self.anchor;
+        let here = self.phase.middle();
+        let length = here - self.anchor;
         let lines = self.lines as f64;
         // A clock may drift by a few ppm, but not by half a sample in [`RATE_LINES`].
         let is_off = |step: f64, uncertainty: f64| {
@@ -252,8 +243,12 @@ impl TimeAxis {
         }
         // The next stretch is compared with this one: a clock that warms up drifts far in the end, but never at once.
         self.step = length / lines;
-        self.uncertainty = 0.0;
-        self.anchor = now;
+        self.uncertainty = if is_coarse {
+            self.phase.width() / lines
+        } else {
+            0.0
+        };
+        self.anchor = here;
         self.lines = 0;
         Ok(lost)
     }
@@ -263,9 +258,7 @@ impl TimeAxis {
         let (from, to, usual) = (self.last, now, self.step);
         let step = to - from;
         let samples = step / usual;
-        if self.is_coarse(rounding) {
-            Err(coarse(rounding * usual, usual))
-        } else if step <= 0.0 {
+        if step <= 0.0 {
             Err(backwards(from, to))
         } else if samples > 1.5 && is_forward(samples, self.tolerance(samples, rounding)) {
             Ok(samples.round() as u64 - 1)
@@ -275,44 +268,6 @@ impl TimeAxis {
             ))
         }
     }
-}
-
-/// Whether each of `times` stands in two lines, as for a minimum and a maximum; the first or the last may stand alone.
-pub(super) fn are_paired(times: &[f64]) -> bool {
-    let steps = || times.windows(2).map(|pair| pair[1] - pair[0]);
-    let are_turns = |first: usize| {
-        let mut steps = steps().enumerate();
-        steps.all(|(index, step)| (index % 2 == first) == (step == 0.0) && step >= 0.0)
-    };
-    times.len() >= MIN_PAIRED && (are_turns(0) || are_turns(1))
-}
-
-/// The index of the first of `times` that does not go up, and its fault.
-pub(super) fn standstill(times: &[f64], printed: Printed) -> Option<(usize, String)> {
-    let at = 1 + times.windows(2).position(|pair| pair[1] <= pair[0])?;
-    let (from, to) = (times[at - 1], times[at]);
-    let usual = (times.last()? - times.first()?) / (times.len() - 1) as f64;
-    let fault = if from == to && usual > 0.0 {
-        coarse(printed.step(to), usual)
-    } else {
-        backwards(from, to)
-    };
-    Some((at, fault))
-}
-
-/// What is wrong with times printed with too few digits.
-fn coarse(step: f64, usual: f64) -> String {
-    format!(
-        "times are given to {step:.0e} s only, too coarse for samples {usual:.4e} s apart; print more digits, and keep times in double precision"
-    )
-}
-
-/// What is wrong if time stands still or runs backwards.
-fn backwards(from: f64, to: f64) -> String {
-    format!(
-        "time goes from {from} s to {to} s, but must increase, and what follows is not read; sort the lines, cut the recording here, \
-         print times with more digits"
-    )
 }
 
 /// The number of fewest digits within `uncertainty` of `value`.

@@ -68,6 +68,67 @@ fn single_precision_is_as_good() {
 }
 
 #[test]
+fn times_in_steps_of_several_samples_are_as_good() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let expected = rows_of(here, &text(&WAVE.codes(100_000)), "");
+    let digits = timed("time,c,d\n", 100_000, |t| format!("{t:.3e}"));
+    fs::write(here.join("a.csv"), &digits).unwrap();
+    let run = done(here, "identify a.csv --output csv");
+    let told = "warning: a.csv: times are given to 1e-4 s only: gaps of up to 10 samples are seen late or not at all; print more digits";
+    assert!(
+        run.err.starts_with(told) && run.err.lines().count() == 1,
+        "{}",
+        run.err
+    );
+    same_later(&Row::all(&run.out), &expected, 0.0);
+    // A line sent twice is left out, and one whose time is wrong.
+    let lines: Vec<&str> = digits.lines().collect();
+    let mut faulty = lines.clone();
+    faulty.insert(60_000, lines[60_000]);
+    faulty[30_000] = "7.5,0.1,0.1";
+    fs::write(here.join("a.csv"), faulty.join("\n")).unwrap();
+    let run = crate::common::run(here, "identify a.csv --output csv");
+    let told = "error: a.csv:30001:1: the time `7.5` does not follow that of the line before, but the lines behind do: the line is left out, the first of 2;";
+    assert!(run.code == 1 && run.err.contains(told), "{}", run.err);
+    assert!(Row::all(&run.out).len() + 6 > expected.len());
+}
+
+#[test]
+fn a_counter_that_begins_anew_goes_on() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let expected = rows_of(here, &text(&WAVE.codes(100_000)), "");
+    let wrap = f64::from(u32::MAX) + 1.0;
+    for lines in [1000.0, 80_000.0] {
+        // From so many lines before the counter begins anew.
+        let start = wrap - 10.0 * lines - 3.0;
+        let count = |t: f64| format!("{:.0}", (start + 1e6 * t) % wrap);
+        let text = timed("time_us,c,d\n", 100_000, count);
+        same_later(&rows_of(here, &text, ""), &expected, 1e-6 * start);
+        // One that is reset before is not taken for it.
+        let reset = text.replace(&format!("\n{:.0},", wrap - 13.0), "\n5,");
+        let early = timed("time_us,c,d\n", 100_000, |t| {
+            format!(
+                "{:.0}",
+                (0.5 * wrap + 1e6 * t) % (0.5 * wrap + 10.0 * lines)
+            )
+        });
+        assert_ne!(reset, text);
+        fs::write(here.join("a.csv"), early).unwrap();
+        let run = crate::common::run(here, "identify a.csv --output csv");
+        assert!(
+            run.code == 1 && run.err.contains("must increase"),
+            "{}",
+            run.err
+        );
+        fs::write(here.join("a.csv"), reset).unwrap();
+        let run = crate::common::run(here, "identify a.csv --output csv");
+        assert!(run.err.contains("the line is left out"), "{}", run.err);
+    }
+}
+
+#[test]
 fn a_clock_that_warms_up_is_warned_of_and_costs_no_row() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
@@ -132,7 +193,7 @@ fn every_fault_of_the_time_names_the_way_around_it() {
         (lost, "3 samples are lost"),
         (timed("zeit,c,d\n", 5000, jitter), "time steps by"),
         (
-            timed("zeit,c,d\n", 5000, |t| format!("{t:.3}")),
+            timed("zeit,c,d\n", 5000, |t| format!("{t:.2}")),
             "too coarse",
         ),
         (

@@ -14,6 +14,7 @@ use super::super::not_finite::Flaw;
 use super::super::number::number;
 use super::super::printed::Printed;
 use super::super::time::TimeAxis;
+use super::super::wrapped::Wrapped;
 use super::fields::{Cut, missing, place};
 
 /// Characters of a bad field that an error shows, at most.
@@ -35,6 +36,8 @@ pub(super) struct Rows {
     pub lines: Lines,
     pub header: Header,
     pub printed: Printed,
+    /// The counter that the times come from, if they are whole numbers.
+    wrapped: Wrapped,
     /// The times so far, once their rate is known.
     pub axis: Option<TimeAxis>,
     /// The first sample that is not a finite number.
@@ -63,6 +66,7 @@ impl Rows {
             lines,
             header,
             printed: Printed::default(),
+            wrapped: Wrapped::default(),
             axis: None,
             not_finite: None,
             left_out: LeftOut::default(),
@@ -95,7 +99,9 @@ impl Rows {
         number::<f64>(text, self.lines.separator).filter(|time| time.is_finite())
     }
 
-    fn seconds(&self, time: f64) -> f64 {
+    /// This time in s, with what a counter counted before it began anew.
+    fn seconds(&self, time: f64, wrapped: &mut Wrapped) -> f64 {
+        let time = wrapped.unwrapped(time, self.printed.are_integers());
         time / 10f64.powi(-self.header.exponent)
     }
 
@@ -116,7 +122,8 @@ impl Rows {
         let cut = Cut::of(line, &self.header);
         let texts = cut.texts;
         let own_time = self.time(texts[TIME]);
-        let time = own_time.map(|time| self.seconds(time));
+        let mut wrapped = self.wrapped;
+        let time = own_time.map(|time| self.seconds(time, &mut wrapped));
         let is_odd = match time {
             Some(time) => self.is_odd(time)?,
             None => false,
@@ -140,6 +147,7 @@ impl Rows {
         }
         if let Some(time) = own_time.filter(|_| !is_odd) {
             self.printed.see(texts[TIME], time, self.header.exponent);
+            self.wrapped = wrapped;
         }
         let is_left_out = time.is_none() && self.header.places[TIME].is_some();
         if is_left_out {

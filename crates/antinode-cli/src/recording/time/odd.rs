@@ -11,6 +11,10 @@ impl TimeAxis {
 
     /// Whether a time follows the last one without a gap.
     pub fn is_next(&self, now: f64, printed: Printed) -> bool {
+        if self.is_coarse(self.rounding(now, printed)) {
+            let lost = self.fewest_lost(now, printed);
+            return lost.is_some_and(|(lost, _)| lost == 0);
+        }
         let off = ((now - self.last) / self.step - 1.0).abs();
         off <= STEP_TOLERANCE + self.rounding(now, printed).min(0.5 - STEP_TOLERANCE)
     }
@@ -25,23 +29,25 @@ impl TimeAxis {
         may_be_between: bool,
     ) -> Option<bool> {
         let rounding = self.rounding(self.last, printed);
-        if self.is_coarse(rounding) {
-            return Some(false);
-        }
+        let is_coarse = self.is_coarse(rounding);
         let samples = |time: f64| (time - self.last) / self.step;
-        let is_whole =
-            |time: f64| is_forward(samples(time), self.tolerance(samples(time), rounding));
-        let is_resumed = |pair: &[f64]| is_whole(pair[0]) && is_whole(pair[1]) && pair[0] < pair[1];
+        let is_whole = |time: f64| match is_coarse {
+            true => self.fewest_lost(time, printed).is_some(),
+            false => is_forward(samples(time), self.tolerance(samples(time), rounding)),
+        };
+        let goes_on = |from: f64, to: f64| from < to || is_coarse && from == to;
+        let is_resumed =
+            |pair: &[f64]| is_whole(pair[0]) && is_whole(pair[1]) && goes_on(pair[0], pair[1]);
         let mut pairs = ahead.windows(2);
         // A whole number of samples later it is a gap: only if time runs back behind it may it be none.
-        if now > self.last && ahead.first().is_some_and(|&next| next > now) {
+        if now > self.last && ahead.first().is_some_and(|&next| goes_on(now, next)) {
             let is_between = may_be_between && !is_whole(now);
             return Some(is_between && pairs.next().is_some_and(is_resumed));
         }
         pairs.any(is_resumed).then_some(true)
     }
 
-    /// Whether rounding, in samples, hides lost samples.
+    /// Whether rounding, in samples, hides lost samples from a look at two neighbouring times.
     pub(super) fn is_coarse(&self, rounding: f64) -> bool {
         rounding > MAX_ROUNDING && rounding * self.step > self.harmless
     }

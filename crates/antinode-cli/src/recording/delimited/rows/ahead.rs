@@ -18,12 +18,12 @@ impl Rows {
     /// Finds the rate of the times in the next lines, as many as `lines`, and gives these times, s.
     pub fn look_ahead(&mut self, lines: usize) -> Result<Vec<f64>, Fault> {
         self.lines.look_ahead(lines)?;
-        let (mut times, mut printed) = (Vec::new(), self.printed);
+        let (mut times, mut printed, mut wrapped) = (Vec::new(), self.printed, self.wrapped);
         for line in self.lines.ahead() {
             let text = Cut::of(line, &self.header).texts[TIME];
             if let Some(time) = self.time(text) {
                 printed.see(text, time, self.header.exponent);
-                times.push(self.seconds(time));
+                times.push(self.seconds(time, &mut wrapped));
             }
         }
         self.printed = printed;
@@ -65,7 +65,8 @@ impl Rows {
             self.lines.look_ahead(lines)?;
             let ahead = self.lines.ahead().take(lines);
             let ahead = ahead.filter_map(|line| self.time(Cut::of(line, &self.header).texts[TIME]));
-            let ahead: Vec<f64> = ahead.map(|time| self.seconds(time)).collect();
+            let mut wrapped = self.wrapped;
+            let ahead: Vec<f64> = ahead.map(|time| self.seconds(time, &mut wrapped)).collect();
             let may_be_between = self.odd < MIN_ODD + self.read / READ_PER_ODD;
             if let Some(is_odd) = axis.is_odd(time, &ahead, self.printed, may_be_between) {
                 self.odd += u64::from(is_odd);

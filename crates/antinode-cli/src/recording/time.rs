@@ -137,7 +137,9 @@ impl TimeAxis {
         let mut axis = Self::new(start, rate, uncertainty, printed);
         // A few uneven steps are faults; many or regular ones come from the rounding.
         if !(is_regular || ragged.len() > 2 && 10 * ragged.len() > steps.len()) {
-            axis.harmless = 2.0 * rounding.min(mean).max(printed.step(start));
+            let is_even = ragged.len() < MIN_REGULAR;
+            let late = if is_even { rounding.min(mean) } else { 0.0 };
+            axis.harmless = 2.0 * late.max(printed.step(start));
         }
         Some(axis)
     }

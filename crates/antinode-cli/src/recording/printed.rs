@@ -55,9 +55,10 @@ impl Printed {
     fn last_digit(self, seconds: f64) -> f64 {
         let magnitude = seconds.abs().log10().floor().max(-300.0) as i32;
         // Whole numbers have all their digits.
-        let by_digits = match self.has_point {
-            true => 10f64.powi(magnitude + 1 - self.digits),
-            false => 0.0,
+        let by_digits = if self.has_point {
+            10f64.powi(magnitude + 1 - self.digits)
+        } else {
+            0.0
         };
         10f64.powi(-self.decimals).max(by_digits)
     }

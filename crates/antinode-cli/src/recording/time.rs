@@ -64,8 +64,8 @@ pub(super) struct TimeAxis {
     uncertainty: f64,
     /// Rounding up to this, s, does no harm: the first steps are even in spite of it.
     harmless: f64,
-    /// Where the true time of the last sample lies.
-    phase: Phase,
+    /// Where the true time of the last sample lies, if rounding hides it.
+    phase: Option<Phase>,
     /// The coarsest rounding, s, that did harm.
     coarsest: f64,
 }
@@ -169,7 +169,7 @@ impl TimeAxis {
             lines: 0,
             uncertainty,
             harmless: 0.0,
-            phase: Phase::near(start, printed.error(start)),
+            phase: None,
             coarsest: 0.0,
         }
     }
@@ -206,18 +206,20 @@ impl TimeAxis {
                     backwards(self.last, now)
                 }
             })?;
-            self.phase = phase;
-            self.coarsest = self.coarsest.max(rounding * self.step);
+            self.phase = Some(phase);
+            // A round time in shortest form looks coarse, but its neighbours do not.
+            let of_both = printed.step(now).min(self.rounding);
+            if self.is_coarse(of_both / self.step) {
+                self.coarsest = self.coarsest.max(of_both);
+            }
             lost
         } else {
-            let is_next = self.is_next(now, printed);
-            let lost = if is_next {
+            self.phase = None;
+            if self.is_next(now, printed) {
                 0
             } else {
                 self.lost(now, rounding)?
-            };
-            self.phase = Phase::near(now, printed.error(now));
-            lost
+            }
         };
         self.last = now;
         self.rounding = printed.step(now);
@@ -226,7 +228,7 @@ impl TimeAxis {
         if self.lines < RATE_LINES {
             return Ok(lost);
         }
-        let here = self.phase.middle();
+        let here = self.phase.map_or(now, Phase::middle);
         let length = here - self.anchor;
         let lines = self.lines as f64;
         // A clock may drift by a few ppm, but not by half a sample in [`RATE_LINES`].
@@ -245,11 +247,7 @@ impl TimeAxis {
         }
         // The next stretch is compared with this one: a clock that warms up drifts far in the end, but never at once.
         self.step = length / lines;
-        self.uncertainty = if is_coarse {
-            self.phase.width() / lines
-        } else {
-            0.0
-        };
+        self.uncertainty = self.phase.map_or(0.0, Phase::width) / lines;
         self.anchor = here;
         self.lines = 0;
         Ok(lost)

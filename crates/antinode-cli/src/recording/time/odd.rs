@@ -11,12 +11,13 @@ impl TimeAxis {
 
     /// Whether a time follows the last one without a gap.
     pub fn is_next(&self, now: f64, printed: Printed) -> bool {
-        if self.is_coarse(self.rounding(now, printed)) {
+        let rounding = self.rounding(now, printed);
+        if self.is_coarse(rounding) {
             let lost = self.fewest_lost(now, printed);
             return lost.is_some_and(|(lost, _)| lost == 0);
         }
         let off = ((now - self.last) / self.step - 1.0).abs();
-        off <= STEP_TOLERANCE + self.rounding(now, printed).min(0.5 - STEP_TOLERANCE)
+        off <= STEP_TOLERANCE + rounding.min(0.5 - STEP_TOLERANCE)
     }
 
     /// Whether a time that does not follow the last one is wrong by the times `ahead`, behind it; none if more of these are needed to tell.
@@ -31,9 +32,12 @@ impl TimeAxis {
         let rounding = self.rounding(self.last, printed);
         let is_coarse = self.is_coarse(rounding);
         let samples = |time: f64| (time - self.last) / self.step;
-        let is_whole = |time: f64| match is_coarse {
-            true => self.fewest_lost(time, printed).is_some(),
-            false => is_forward(samples(time), self.tolerance(samples(time), rounding)),
+        let is_whole = |time: f64| {
+            if is_coarse {
+                self.fewest_lost(time, printed).is_some()
+            } else {
+                is_forward(samples(time), self.tolerance(samples(time), rounding))
+            }
         };
         let goes_on = |from: f64, to: f64| from < to || is_coarse && from == to;
         let is_resumed =

@@ -36,13 +36,16 @@ impl Phase {
 impl TimeAxis {
     /// The fewest samples lost before the next one that explain its time, and its phase; none if no number of them does.
     pub(super) fn fewest_lost(&self, now: f64, printed: Printed) -> Option<(u64, Phase)> {
+        let last = self
+            .phase
+            .unwrap_or_else(|| Phase::near(self.last, printed.error(self.last)));
         let here = Phase::near(now, printed.error(now) + STEP_TOLERANCE * self.step);
         let uncertainty = self.uncertainty + DRIFT * self.step;
         let (shortest, longest) = (self.step - uncertainty, self.step + uncertainty);
-        let steps = ((here.earliest - self.phase.latest) / longest).ceil();
+        let steps = ((here.earliest - last.latest) / longest).ceil();
         let steps = steps.max(1.0);
-        let earliest = self.phase.earliest + steps * shortest;
-        let latest = self.phase.latest + steps * longest;
+        let earliest = last.earliest + steps * shortest;
+        let latest = last.latest + steps * longest;
         let phase = Phase {
             earliest: earliest.max(here.earliest),
             latest: latest.min(here.latest),

@@ -72,11 +72,6 @@ impl Printed {
         }
     }
 
-    /// True if all times so far are whole numbers in their own unit.
-    pub fn are_integers(self) -> bool {
-        !self.has_point
-    }
-
     /// True if all times so far are whole numbers of seconds.
     pub fn is_whole(self) -> bool {
         self.decimals <= 0

@@ -15,10 +15,10 @@ pub(super) struct Wrapped {
 }
 
 impl Wrapped {
-    /// This count, and all counts before the counter began anew, which it does if it `may_wrap`.
-    pub fn unwrapped(&mut self, count: f64, may_wrap: bool) -> f64 {
+    /// This count, and all counts before the counter began anew.
+    pub fn unwrapped(&mut self, count: f64) -> f64 {
         let back = self.last - (self.before + count);
-        if may_wrap && (WRAP - MAX_STEP..WRAP).contains(&back) {
+        if (WRAP - MAX_STEP..WRAP).contains(&back) {
             self.before += WRAP;
         }
         self.last = self.before + count;

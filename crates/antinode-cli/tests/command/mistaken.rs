@@ -1,7 +1,7 @@
 //! `antinode identify` on samples that are not what they are taken for: rows would look plausible.
 
 use crate::common::{
-    RATE, Row, WAVE, Wave, done, fault, npy, raw, rows_of, run, run_with, text, wav,
+    RATE, Row, WAVE, Wave, done, fault, npy, printed, raw, rows_of, run, run_with, text, wav,
 };
 
 #[test]
@@ -130,6 +130,14 @@ fn signals_with_times_that_differ_are_reported() {
     let here = directory.path();
     let codes = WAVE.codes(5000);
     let expected = rows_of(here, &text(&codes), "--to 0.045");
+    // A count of lines is no time of its own.
+    let counted = printed("", &codes, |k, [c, d]| {
+        format!("{:.5},{c},{},{d}", k as f64 / RATE, k + 5)
+    });
+    assert_eq!(
+        rows_of(here, &counted, "--columns 1,2,4 --to 0.045"),
+        expected
+    );
     // S_D begins so many samples later.
     for (late, told) in [
         (0, None),

@@ -36,7 +36,7 @@ pub(super) struct Rows {
     pub lines: Lines,
     pub header: Header,
     pub printed: Printed,
-    /// The counter that the times come from, if they are whole numbers.
+    /// The counter that the times may come from.
     wrapped: Wrapped,
     /// The times so far, once their rate is known.
     pub axis: Option<TimeAxis>,
@@ -101,7 +101,7 @@ impl Rows {
 
     /// This time in s, with what a counter counted before it began anew.
     fn seconds(&self, time: f64, wrapped: &mut Wrapped) -> f64 {
-        let time = wrapped.unwrapped(time, self.printed.are_integers());
+        let time = wrapped.unwrapped(time);
         time / 10f64.powi(-self.header.exponent)
     }
 

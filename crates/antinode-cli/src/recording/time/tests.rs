@@ -184,6 +184,12 @@ fn time_printed_too_coarsely_is_named() {
             "{decimals} {rate}: {fault}"
         );
     }
+    // So few that the rate may be off by percents.
+    let (_, fault) = run(&times(100, 97_000.0, 0.0, |t| format!("{t:.4}")), HEAD).unwrap_err();
+    assert!(
+        fault.contains("times are given to 1e-4 s only, too coarse"),
+        "{fault}"
+    );
     // Not at equal distances.
     for rate in [70_000.0, 150_000.0] {
         let jitter = |t: f64| format!("{:.5}", t + 0.5 / rate * (1e5 * t * t).sin());

@@ -100,8 +100,9 @@ impl TimeAxis {
         if median <= 0.0 {
             return None;
         }
-        // The first time may be wrong like any other.
+        // Half of the median is near: where samples are 1.5 last digits apart, steps have one and two.
         let is_near = |step: f64| (step - median).abs() < 0.51 * median;
+        // The first time may be wrong like any other.
         let start = match steps[..] {
             [own, next, after, ..]
                 if !is_forward(own / median, MAX_ROUNDING) && is_near(next) && is_near(after) =>

@@ -6,6 +6,9 @@ use super::{MIN_REGULAR, SAME_RATE, STEP_TOLERANCE};
 /// Parts of the times, of which one must be without a fault.
 const PARTS: [usize; 4] = [1, 2, 4, 8];
 
+/// Largest share of the whole time that rounding may hide.
+const MAX_HIDDEN: f64 = 2e-3;
+
 /// Most searches for a contradiction; a few find the steps.
 const MAX_SEARCHES: usize = 64;
 
@@ -38,8 +41,10 @@ fn steps_of_all(times: &[f64], printed: Printed) -> Option<[f64; 2]> {
     let least = narrowed(&bounds, (ends[1][0] - ends[0][1]) / count, 1.0);
     let most = narrowed(&bounds, (ends[1][1] - ends[0][0]) / count, -1.0);
     let is_certain = most - least <= SAME_RATE * least;
+    // Lost samples that do not show narrow the range, and move it by up to their share.
+    let is_long = ends[1][1] - ends[1][0] <= MAX_HIDDEN * (last - first);
     let explains = least <= most && contradiction(&bounds, 0.5 * (least + most)).is_none();
-    (is_certain && explains).then_some([least, most])
+    (is_certain && is_long && explains).then_some([least, most])
 }
 
 /// Moves one end of the range of steps inwards, up or down by this `sign`, as far as contradictions demand it.

@@ -190,6 +190,14 @@ fn time_printed_too_coarsely_is_named() {
         fault.contains("times are given to 1e-4 s only, too coarse"),
         "{fault}"
     );
+    // Lost samples that rounding hides would move the rate.
+    let mut text = times(1500, 96_000.0, 123.456, |t| format!("{t:.3}"));
+    text.drain(750..752);
+    let (_, fault) = run(&text, HEAD).unwrap_err();
+    assert!(
+        fault.contains("times are given to 1e-3 s only, too coarse"),
+        "{fault}"
+    );
     // Not at equal distances.
     for rate in [70_000.0, 150_000.0] {
         let jitter = |t: f64| format!("{:.5}", t + 0.5 / rate * (1e5 * t * t).sin());

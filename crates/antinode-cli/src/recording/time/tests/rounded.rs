@@ -18,7 +18,7 @@ fn no_rounding_gives_a_wrong_rate() {
         for (decimals, start) in [(6, 0.0), (6, -0.0012345), (4, 7.3)] {
             let tick = 10f64.powi(-decimals);
             let rate = 1.0 / (ratio * tick);
-            let count = 3000;
+            let count = 6000;
             let print = |t: f64| format!("{t:.*}", decimals as usize);
             match axis(&times(count, rate, start, print), HEAD) {
                 Ok((axis, gaps)) => {
@@ -52,7 +52,7 @@ fn the_roundest_rate_that_explains_all_times_is_found() {
         (4, 100_000.0),
         (3, 96_000.0),
     ] {
-        let text = times(12_000, rate, 0.0, |t| format!("{t:.decimals$}"));
+        let text = times(60_000, rate, 0.0, |t| format!("{t:.decimals$}"));
         assert_eq!(run(&text, HEAD), Ok(Some(rate)), "{decimals}");
     }
 }

@@ -3,8 +3,7 @@
 use super::columns::Places;
 use super::error::TIME;
 use super::number::number;
-use super::preamble::MAX_STEP_RATIO;
-use crate::median::ends;
+use super::preamble::{MAX_STEP_RATIO, are_even};
 
 /// Lines looked at, the last of those that are seen before the samples are read.
 const LINES: usize = 15;
@@ -36,11 +35,12 @@ pub(super) fn clocks(rows: &[&[&[u8]]], separator: u8) -> Vec<Clock> {
     let clock = |place: usize| {
         let values = rows.iter().map(|row| number(row.get(place)?, separator));
         let values: Vec<f64> = values.collect::<Option<_>>()?;
-        let steps = values.windows(2).map(|pair| pair[1] - pair[0]);
-        let step = steps.clone().sum::<f64>() / steps.len() as f64;
-        let mean = values.iter().sum::<f64>() / values.len() as f64;
-        let [least, most] = ends(steps);
-        (least > 0.0 && most <= MAX_STEP_RATIO * least).then_some(Clock { place, mean, step })
+        let count = values.len() as f64;
+        are_even(&values, MAX_STEP_RATIO).then(|| Clock {
+            place,
+            mean: values.iter().sum::<f64>() / count,
+            step: (values[values.len() - 1] - values[0]) / (count - 1.0),
+        })
     };
     (0..rows[0].len()).filter_map(clock).collect()
 }

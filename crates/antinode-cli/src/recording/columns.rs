@@ -1,7 +1,13 @@
 //! Which columns of a text recording hold the time and the two signals.
 
+mod roles;
+
+pub(super) use roles::{is_known, is_time};
+
 use std::fmt;
 use std::str::FromStr;
+
+use roles::{bare_name, is_count, is_index, role};
 
 use super::error::{ROLES, TIME};
 use super::preamble::Start;
@@ -351,52 +357,6 @@ fn wrong_count(columns: usize, are_words: bool) -> String {
 /// Whether a unit is one of time, s or a decimal part of it.
 fn is_of_time(unit: &str) -> bool {
     matches!(time_exponent(unit), Some(Some(_)))
-}
-
-/// A name's letters and digits, in lower case, without what follows in brackets.
-fn bare_name(name: &str) -> String {
-    let bare = name.split(['[', '(', '/']).next().unwrap_or_default();
-    let bare = bare.to_lowercase();
-    bare.chars()
-        .filter(|letter| letter.is_alphanumeric())
-        .collect()
-}
-
-/// What a column holds by its name, as its place in [`ROLES`].
-fn role(name: &str) -> Option<usize> {
-    match bare_name(name).as_str() {
-        "t" | "time" | "times" | "ts" | "s" | "sec" | "second" | "seconds" | "timestamp"
-        | "timems" | "timeus" | "timens" | "tms" | "tus" | "tns" | "millis" | "micros" => {
-            Some(TIME)
-        }
-        "c" | "sc" | "left" => Some(1),
-        "d" | "sd" | "right" => Some(2),
-        _ => None,
-    }
-}
-
-/// Whether a name says what its column holds.
-pub(super) fn is_known(name: &str) -> bool {
-    role(name).is_some()
-}
-
-/// Whether a name says that its column holds the time.
-pub(super) fn is_time(name: &str) -> bool {
-    role(name) == Some(TIME)
-}
-
-/// Whether a name is that of a mere count of lines, or one of the letters that may be a current if there is a time too.
-fn is_index(name: &str) -> bool {
-    is_count(name) || ["i", "k"].contains(&name.to_lowercase().as_str())
-}
-
-/// Whether a name is that of a count of lines, whatever the other columns are.
-fn is_count(name: &str) -> bool {
-    let names = [
-        "", "#", "n", "nr", "no", "index", "idx", "sample", "samples", "point", "points",
-        "counter", "seq",
-    ];
-    names.contains(&name.to_lowercase().trim_end_matches('.'))
 }
 
 #[cfg(test)]

@@ -102,8 +102,11 @@ impl Header {
         };
         let is_sure =
             |told: &SignalUnits| told.are_sure && told.of.iter().any(|unit| is_known(unit));
-        let units = told.clone().filter(is_sure);
-        if let Some(units) = units.or_else(|| header.units_over(start)).or(told) {
+        let units = match header.units_over(start) {
+            Some(over) if !told.as_ref().is_some_and(is_sure) => Some(over),
+            _ => told,
+        };
+        if let Some(units) = units {
             header.bring_together(&units)?;
         }
         if !has_unit_of_time {

@@ -9,7 +9,7 @@ mod names;
 mod settings;
 mod titles;
 
-pub(super) use clock::MAX_STEP_RATIO;
+pub(super) use clock::{MAX_STEP_RATIO, are_even};
 use clock::{MAX_STEP_RATIO_ALONE, has_fractions, is_clock};
 
 use super::columns;

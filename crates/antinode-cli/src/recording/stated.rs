@@ -1,6 +1,7 @@
 //! The sample rate that a comment, a title or a setting above the samples states: `; Samplerate: 100 kHz`, `Time interval :,10.00uS`.
 
 use super::time::roundest;
+use super::units::time_exponent;
 
 /// Names of a sample rate, and of the time from one sample to the next, in lower case and letters only.
 const RATES: [&str; 8] = [
@@ -23,7 +24,7 @@ const INTERVALS: [&str; 7] = [
     "tinc",
 ];
 
-/// Units of both, and their powers of ten. No rate is in mHz.
+/// Units of a rate, and their powers of ten. None is in mHz.
 const RATE_UNITS: [(&str, i32); 13] = [
     ("hz", 0),
     ("khz", 3),
@@ -39,17 +40,6 @@ const RATE_UNITS: [(&str, i32); 13] = [
     ("msps", 6),
     ("", 0),
 ];
-const INTERVAL_UNITS: [(&str, i32); 8] = [
-    ("s", 0),
-    ("sec", 0),
-    ("ms", -3),
-    ("us", -6),
-    ("µs", -6),
-    ("μs", -6),
-    ("ns", -9),
-    ("", 0),
-];
-
 /// Rates that can be meant, Hz.
 const POSSIBLE: std::ops::RangeInclusive<f64> = 1.0..=1e10;
 /// Relative difference of two statements of the same rate.
@@ -121,7 +111,7 @@ fn unit(behind: &str) -> &str {
 
 /// The rate, Hz, that a number behind this name gives; none if the name is another or the unit is not known.
 fn rate(name: &str, number: f64, unit: &str) -> Option<f64> {
-    let told = |names: &[&str], units: &[(&str, i32)]| {
+    let told = |names: &[&str], power: &dyn Fn(&str) -> Option<i32>| {
         let behind = names
             .iter()
             .find_map(|known| Some(name.rsplit_once(known)?.1))?;
@@ -129,11 +119,19 @@ fn rate(name: &str, number: f64, unit: &str) -> Option<f64> {
         // The unit may stand behind the name, or behind the number.
         let unit = if bare.is_empty() { behind } else { &bare };
         let is_bare = behind.is_empty() || bare.is_empty() || behind == bare;
-        let (_, power) = units.iter().find(|(known, _)| *known == unit && is_bare)?;
-        Some(number * 10f64.powi(*power))
+        let power = power(unit).filter(|_| is_bare)?;
+        Some(number * 10f64.powi(power))
     };
-    let interval = || told(&INTERVALS, &INTERVAL_UNITS).map(f64::recip);
-    told(&RATES, &RATE_UNITS)
+    let of_rate = |unit: &str| {
+        let found = RATE_UNITS.iter().find(|(known, _)| *known == unit);
+        found.map(|(_, power)| *power)
+    };
+    let of_time = |unit: &str| match unit {
+        "" => Some(0),
+        unit => time_exponent(unit)?,
+    };
+    let interval = || told(&INTERVALS, &of_time).map(f64::recip);
+    told(&RATES, &of_rate)
         .or_else(interval)
         .map(|rate| roundest(rate, 0.0))
 }

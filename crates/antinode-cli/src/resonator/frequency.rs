@@ -33,26 +33,27 @@ pub struct Frequency {
 
 /// The mean frequency by the phases of rows, or without these if they contradict the rows' own frequencies, as where times are rounded.
 pub fn frequency(rows: &mut Runs, found: &Found) -> Frequency {
-    let by_phases = by_stretches(rows, found);
+    let moved = found.frequency_moved(&rows.runs);
+    let by_phases = by_stretches(rows, &moved, found);
     let (mean, _) = by_phases.mean;
-    if !is_contradicted(mean, rows, found) {
+    if !is_contradicted(mean, rows, &moved, found) {
         return by_phases;
     }
     let all = rows.runs.iter_mut().flat_map(|run| &mut run.rows);
     all.for_each(|row| row.phase = None);
     Frequency {
         contradicted: Some(mean),
-        ..by_stretches(rows, found)
+        ..by_stretches(rows, &moved, found)
     }
 }
 
 /// Whether rows' own frequencies differ from this mean, Hz, by more than any turn or split explains.
-fn is_contradicted(mean: f64, rows: &Runs, found: &Found) -> bool {
+fn is_contradicted(mean: f64, rows: &Runs, moved: &[Moved], found: &Found) -> bool {
     let all = rows.runs.iter().flat_map(|run| &run.rows);
-    let all = all.zip(found.frequency_moved(&rows.runs));
+    let all = all.zip(moved);
     // The mean is without the splits' part, which rows have.
-    let apart = |(row, moved): (&Row, Moved)| {
-        let of_row = weighed(row, &moved, found, true);
+    let apart = |(row, moved): (&Row, &Moved)| {
+        let of_row = weighed(row, moved, found, true);
         [of_row.weight, row.frequency - of_row.by_splits - mean]
     };
     let (apart, weights) = weighted_mean(all.map(apart));
@@ -65,17 +66,17 @@ fn is_contradicted(mean: f64, rows: &Runs, found: &Found) -> bool {
 ///
 /// A row has the frequency along its pattern: the part due to the splits is subtracted, if they are determined. With quadrature, a turning
 /// pattern looks like another frequency, and a row assumes that it turns as in the rows before: a change of that adds to its deviation.
-fn by_stretches(rows: &Runs, found: &Found) -> Frequency {
+fn by_stretches(rows: &Runs, moved: &[Moved], found: &Found) -> Frequency {
     let mut all = rows.runs.iter().flat_map(|run| &run.rows);
     let are_weighted = all.all(|row| row.frequency_deviation.is_finite());
-    let mut moved = found.frequency_moved(&rows.runs).into_iter();
+    let mut moved = moved.iter();
     // Relative to the first, so as to keep digits.
     let from = rows.runs[0].rows[0].frequency;
     let (mut of_rows, mut mean_by) = (0.0, [0.0; 4]);
     let runs = rows.runs.iter().map(|run| {
         let pairs = run.rows.iter().zip(&mut moved);
         let weighed = pairs.map(|(row, moved)| {
-            let weighed = weighed(row, &moved, found, are_weighted);
+            let weighed = weighed(row, moved, found, are_weighted);
             of_rows += weighed.weight;
             for (sum, by) in mean_by.iter_mut().zip(moved.by_splits) {
                 *sum += weighed.weight * by;

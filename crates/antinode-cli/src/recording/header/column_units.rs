@@ -11,7 +11,6 @@ use super::super::units::{
 use super::Header;
 
 /// The units of S_C and S_D, as a line tells them.
-#[derive(Clone)]
 pub(super) struct SignalUnits {
     pub of: [String; 2],
     /// Whether they are surely units: outside of brackets, the end of a name may be a label.

@@ -14,8 +14,12 @@ pub(super) const MAX_STEP_RATIO_ALONE: f64 = 1.0001;
 pub(super) fn is_clock(rows: &[Line], column: usize, separator: u8, max_ratio: f64) -> bool {
     let time = |line: &Line| number::<f64>(line.fields.get(column)?, separator);
     let times: Option<Vec<f64>> = rows.iter().map(time).collect();
-    let Some(times) = times else { return false };
-    let [least, most] = ends(times.windows(2).map(|pair| pair[1] - pair[0]));
+    times.is_some_and(|times| are_even(&times, max_ratio))
+}
+
+/// Whether these values go up by the same step, within `max_ratio`.
+pub(in crate::recording) fn are_even(values: &[f64], max_ratio: f64) -> bool {
+    let [least, most] = ends(values.windows(2).map(|pair| pair[1] - pair[0]));
     least > 0.0 && most <= max_ratio * least
 }
 

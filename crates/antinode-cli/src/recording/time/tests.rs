@@ -21,13 +21,7 @@ type Gaps = Vec<(usize, u64)>;
 
 /// The axis and the gaps once all printed times are read; or the index and the text of a fault.
 fn axis(times: &[String], head: usize) -> Result<(TimeAxis, Gaps), (usize, String)> {
-    let mut printed = Printed::default();
-    let mut first = Vec::new();
-    for text in &times[..head.min(times.len())] {
-        let time = text.parse().unwrap();
-        printed.see(text.as_bytes(), time, 0);
-        first.push(time);
-    }
+    let (first, mut printed) = read(&times[..head.min(times.len())]);
     let Some(mut axis) = TimeAxis::of(&first, printed) else {
         let (index, fault) = standstill(&first, printed).expect("a fault");
         return Err((index, fault.to_string()));
@@ -43,6 +37,17 @@ fn axis(times: &[String], head: usize) -> Result<(TimeAxis, Gaps), (usize, Strin
         }
     }
     Ok((axis, gaps))
+}
+
+/// The numbers that these times print, and how they are printed.
+fn read(times: &[String]) -> (Vec<f64>, Printed) {
+    let mut printed = Printed::default();
+    let read = times.iter().map(|text| {
+        let time = text.parse().unwrap();
+        printed.see(text.as_bytes(), time, 0);
+        time
+    });
+    (read.collect(), printed)
 }
 
 fn times(count: usize, rate: f64, start: f64, print: impl Fn(f64) -> String) -> Vec<String> {

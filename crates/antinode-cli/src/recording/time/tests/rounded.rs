@@ -61,11 +61,7 @@ fn the_roundest_rate_that_explains_all_times_is_found() {
 fn a_first_time_that_is_wrong_is_not_the_start() {
     let mut text = times(12_000, 80_000.0, 0.0, |t| format!("{t:.5}"));
     text[0] = "0.70000".to_owned();
-    let mut printed = Printed::default();
-    let first: Vec<f64> = text.iter().map(|time| time.parse().unwrap()).collect();
-    for (text, time) in text.iter().zip(&first) {
-        printed.see(text.as_bytes(), *time, 0);
-    }
+    let (first, printed) = read(&text);
     let axis = TimeAxis::of(&first, printed).unwrap();
     assert_eq!((axis.rate(), axis.start()), (80_000.0, first[1]));
 }

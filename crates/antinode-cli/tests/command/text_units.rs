@@ -71,6 +71,13 @@ fn signals_are_brought_to_the_larger_unit() {
             [1e3, 1.0],
             "S_C is in mV and S_D in V: both are converted to V",
         ),
+        // Names in brackets count for more.
+        (
+            "Model,X\nSample Interval,1e-5\nVertical Units,V,V\nTime (s),CH1 (mV),CH2 (V)\n",
+            1.0,
+            [1e3, 1.0],
+            "S_C is in mV and S_D in V: both are converted to V",
+        ),
         (
             "Model,X\nVertical Units,CH1:V,CH2:mV\nTime,CH1,CH2\n",
             1.0,

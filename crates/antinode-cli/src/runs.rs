@@ -56,7 +56,8 @@ pub struct Runs {
 
 impl Runs {
     /// Reads the rows given, and returns their runs and the names of their files. A run ends if the pattern turns by more than `max_turn`
-    /// rad from row to row, if the wave jumps across rows left out or steps between clean ones, and at a row with a flag of `breaks`.
+    /// rad from row to row, if the wave jumps across rows left out or missing or steps between clean ones, and at a row with a flag of
+    /// `breaks`.
     pub fn open(
         given: &GivenRows,
         max_turn: f64,

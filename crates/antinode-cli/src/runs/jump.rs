@@ -1,4 +1,4 @@
-//! Detection of jumps of the wave across rows left out: a fault in their windows may have changed it.
+//! Detection of jumps of the wave across rows that are left out or missing: a fault in their windows may have changed it.
 
 use nalgebra::{DMatrix, DVector};
 

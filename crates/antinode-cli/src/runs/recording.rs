@@ -28,7 +28,7 @@ pub(super) struct Recording {
     pub backward: usize,
     /// The run that has not ended.
     run: Run,
-    /// Number of rows before some that were left out for more than a circle, until a row after these is known as well.
+    /// Number of rows before some that are missing, or left out for more than a circle, until a row after these is known as well.
     torn: Option<usize>,
     /// Numbers of rows before circular ones that were left out.
     circles: Vec<usize>,
@@ -68,6 +68,10 @@ impl Recording {
             }
             self.backward += usize::from(is_backward);
             let is_turned = turn(row.angle - last.angle).abs() > max_turn;
+            // A report that was lost may have told of a fault.
+            if self.between.is_empty() && self.run.misses_rows_before(&row) {
+                self.torn.get_or_insert(self.run.rows.len());
+            }
             let before = self
                 .torn
                 .filter(|&torn| jumps(&self.run.rows[..torn], &row));

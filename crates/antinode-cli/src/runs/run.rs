@@ -4,6 +4,8 @@ use super::{Row, turn};
 
 /// Distance of windows, as a share of their length, below which they overlap: the length is known to a few per cent.
 const MIN_DISTANCE: f64 = 0.97;
+/// Distance of rows, as a multiple of that before, from which on a row is missing in between.
+const MIN_GAP: f64 = 1.5;
 
 /// A span of rows without a break.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -63,6 +65,14 @@ impl Run {
             turns = [turns[0].min(angle - max), turns[1].max(angle - min)];
         }
         turns
+    }
+
+    /// True if rows are missing between the last one, if any, and this.
+    pub(super) fn misses_rows_before(&self, row: &Row) -> bool {
+        let &[.., ref before, ref last] = self.rows.as_slice() else {
+            return false;
+        };
+        row.time - last.time > MIN_GAP * (last.time - before.time)
     }
 
     /// True if the window of the last row, if any, shares samples with that of this one.

@@ -129,6 +129,29 @@ fn a_wave_that_jumps_across_rows_left_out_begins_another_run() {
 }
 
 #[test]
+fn a_wave_that_jumps_across_missing_rows_begins_another_run() {
+    // Reports that a line has lost, at a jump of a_A.
+    let read = |missing: std::ops::Range<usize>, jump: f64| {
+        let rows = (0..60).filter(|k| !missing.contains(k)).map(|k| {
+            let moved = if k < 30 { 0.0 } else { jump };
+            let main = (1.0 + moved) * (-1e-3 * k as f64).exp();
+            let noise = 1e-5 * (7.3 * k as f64).sin();
+            format!(
+                "a,{},{},0.02,0.3,5332,1e-5,1e-5,1e-5,\n",
+                0.01 * k as f64,
+                main + noise
+            )
+        });
+        lengths(&read(&rows.collect::<String>()))
+    };
+    for missing in [30..31, 29..31, 28..31, 27..33, 25..32] {
+        let [before, after] = [missing.start, 60 - missing.end];
+        assert_eq!(read(missing.clone(), 0.05), [before, after]);
+        assert_eq!(read(missing, 0.0), [before + after]);
+    }
+}
+
+#[test]
 fn a_jump_is_also_seen_after_rows_with_large_deviations() {
     let read = |jump: f64| {
         let text: String = (0..60)

@@ -5,6 +5,7 @@ mod clocks;
 mod codes;
 mod columns;
 mod content;
+mod date;
 mod delimited;
 mod error;
 mod foreign;

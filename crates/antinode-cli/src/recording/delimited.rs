@@ -109,7 +109,8 @@ impl Delimited {
             None
         };
         let start = self.times().map(TimeAxis::start);
-        self.start = start.or(times.first().copied()).unwrap_or(0.0);
+        let start = start.or(times.first().copied());
+        self.start = start.map_or(0.0, |start| self.rows.printed.absolute(start));
         let (mut pairs, mut broken) = (Vec::new(), None);
         while self.rows.read < head && !self.rows.begin_garbled() && self.fault.is_none() {
             match self.rows.next() {
@@ -194,8 +195,10 @@ impl Delimited {
         let lost = lost.map_err(|fault| self.rows.header.time_fault(line, &fault))?;
         if lost > 0 {
             let sequence = self.rows.header.sequence;
-            let times =
-                [last, time].map(|time| sequence.map_or(time, |sequence| sequence.seconds(time)));
+            let times = [last, time].map(|time| {
+                let time = self.rows.printed.absolute(time);
+                sequence.map_or(time, |sequence| sequence.seconds(time))
+            });
             self.gaps.add(Found {
                 gap: Gap { before, lost },
                 line,

@@ -10,6 +10,8 @@ pub(super) struct Printed {
     is_double: bool,
     /// True once a time has been seen with a point or an exponent.
     has_point: bool,
+    /// The time, s, from which on times are counted.
+    origin: f64,
 }
 
 impl Printed {
@@ -41,6 +43,16 @@ impl Printed {
         self.digits = self.digits.max(digits);
     }
 
+    /// Counts times from `origin` on, s.
+    pub fn count_from(&mut self, origin: f64) {
+        self.origin = origin;
+    }
+
+    /// The time itself, s, of one that is counted from the origin on.
+    pub fn absolute(self, seconds: f64) -> f64 {
+        self.origin + seconds
+    }
+
     /// The step between neighbouring printed times near `seconds`, s.
     pub fn step(self, seconds: f64) -> f64 {
         self.last_digit(seconds).max(self.precision(seconds))
@@ -53,7 +65,7 @@ impl Printed {
     }
 
     fn last_digit(self, seconds: f64) -> f64 {
-        let magnitude = seconds.abs().log10().floor().max(-300.0) as i32;
+        let magnitude = self.absolute(seconds).abs().log10().floor().max(-300.0) as i32;
         // Whole numbers have all their digits.
         let by_digits = if self.has_point {
             10f64.powi(magnitude + 1 - self.digits)
@@ -64,9 +76,10 @@ impl Printed {
     }
 
     fn precision(self, seconds: f64) -> f64 {
-        let single = seconds.abs() as f32;
+        let seconds = self.absolute(seconds).abs();
+        let single = seconds as f32;
         if self.is_double {
-            f64::EPSILON * seconds.abs()
+            f64::EPSILON * seconds
         } else {
             f64::from(single.next_up()) - f64::from(single)
         }

@@ -12,6 +12,7 @@ pub(super) use still::{are_paired, standstill};
 
 use odd::is_forward;
 use phase::Phase;
+use rounded::Steps;
 use still::{backwards, coarse};
 
 use super::printed::Printed;
@@ -30,7 +31,7 @@ const MOST_UNCHECKED: f64 = 0.5;
 /// Times that may look coarse among the first: one that is wrong, or a round one in shortest form.
 const FEW_COARSE: usize = 2;
 
-/// Fewest uneven steps whose equal distances, to two lines, are no chance.
+/// Fewest uneven steps whose equal distances are no chance.
 const MIN_REGULAR: usize = 6;
 
 /// Number of samples over which the rate is averaged before it is compared.
@@ -56,11 +57,12 @@ pub(super) struct TimeAxis {
     last: f64,
     /// The step between neighbouring printed times near the last, s.
     rounding: f64,
-    /// The time at which the current stretch begins, s.
+    /// The time at which the current stretch begins, s, and how far rounding may have moved it.
     anchor: f64,
+    anchor_error: f64,
     /// The number of samples since then, lost ones included.
     lines: u64,
-    /// The uncertainty of `step` from the rounding of the first lines, s.
+    /// The uncertainty of `step` from the rounding of the times that it was found from, s.
     uncertainty: f64,
     /// Rounding up to this, s, does no harm: the first steps are even in spite of it.
     harmless: f64,
@@ -82,7 +84,7 @@ impl TimeAxis {
         if even.as_ref().is_some_and(is_even) {
             return even;
         }
-        let rounded = rounded::steps(first, printed);
+        let rounded = Steps::of(first, printed);
         let rounded = rounded.map(|steps| Self::of_rounded(first, printed, steps));
         rounded.or_else(|| {
             // Steps of fewer than two last digits may be those of another rate.
@@ -129,12 +131,8 @@ impl TimeAxis {
             .filter(|&at| at == 0 || is_off(steps[at], steps[at - 1]))
             .collect();
         // Rounding makes uneven steps at equal distances if the step is no multiple of the last digit; faults do not.
-        let apart = || ragged.windows(2).map(|pair| pair[1] - pair[0]);
-        let is_regular = ragged.len() >= MIN_REGULAR
-            && apart()
-                .max()
-                .zip(apart().min())
-                .is_some_and(|(most, least)| most - least <= 2);
+        let mut apart: Vec<_> = ragged.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let is_regular = ragged.len() >= MIN_REGULAR && are_mostly_alike(&mut apart);
         let mut axis = Self::new(start, rate, uncertainty, printed);
         // A few uneven steps are faults; many or regular ones come from the rounding.
         if !(is_regular || ragged.len() > 2 && 10 * ragged.len() > steps.len()) {
@@ -145,14 +143,18 @@ impl TimeAxis {
         Some(axis)
     }
 
-    /// The axis of rounded times, explained by any step between these, s.
-    fn of_rounded(first: &[f64], printed: Printed, [least, most]: [f64; 2]) -> Self {
+    /// The axis of rounded times, explained by these steps.
+    fn of_rounded(first: &[f64], printed: Printed, steps: Steps) -> Self {
+        let [least, most] = steps.range;
         let (slow, fast) = (1.0 / most, 1.0 / least);
         let rate = roundest(0.5 * (slow + fast), 0.5 * (fast - slow));
         // The first time may be wrong like any other.
         let is_late = first.iter().skip(1).take(2).all(|next| *next < first[0]);
-        let start = first[usize::from(is_late)];
-        Self::new(start, rate, most - least, printed)
+        let from = usize::from(is_late);
+        let mut axis = Self::new(first[from], rate, most - least, printed);
+        let before = &first[from..=steps.at.max(from)];
+        axis.phase = axis.first_phase(before, printed, steps.phase);
+        axis
     }
 
     /// An axis of this `rate`, Hz, whose step has an `uncertainty`, s.
@@ -167,6 +169,7 @@ impl TimeAxis {
             last: start,
             rounding: printed.step(start),
             anchor: start,
+            anchor_error: printed.error(start),
             lines: 0,
             uncertainty,
             harmless: 0.0,
@@ -204,7 +207,7 @@ impl TimeAxis {
                 if now > self.last {
                     coarse(rounding * self.step, self.step)
                 } else {
-                    backwards(self.last, now)
+                    backwards(self.last, now, printed)
                 }
             })?;
             self.phase = Some(phase);
@@ -219,7 +222,7 @@ impl TimeAxis {
             if self.is_next(now, printed) {
                 0
             } else {
-                self.lost(now, rounding)?
+                self.lost(now, rounding, printed)?
             }
         };
         self.last = now;
@@ -230,6 +233,9 @@ impl TimeAxis {
             return Ok(lost);
         }
         let here = self.phase.map_or(now, Phase::middle);
+        let here_error = self
+            .phase
+            .map_or(printed.error(now), |phase| 0.5 * phase.width());
         let length = here - self.anchor;
         let lines = self.lines as f64;
         // A clock may drift by a few ppm, but not by half a sample in [`RATE_LINES`].
@@ -248,19 +254,19 @@ impl TimeAxis {
         }
         // The next stretch is compared with this one: a clock that warms up drifts far in the end, but never at once.
         self.step = length / lines;
-        self.uncertainty = self.phase.map_or(0.0, Phase::width) / lines;
-        self.anchor = here;
+        self.uncertainty = (self.anchor_error + here_error) / lines;
+        (self.anchor, self.anchor_error) = (here, here_error);
         self.lines = 0;
         Ok(lost)
     }
 
     /// The number of samples lost before a time that is off, or what else is wrong with it.
-    fn lost(&self, now: f64, rounding: f64) -> Result<u64, String> {
+    fn lost(&self, now: f64, rounding: f64, printed: Printed) -> Result<u64, String> {
         let (from, to, usual) = (self.last, now, self.step);
         let step = to - from;
         let samples = step / usual;
         if step <= 0.0 {
-            Err(backwards(from, to))
+            Err(backwards(from, to, printed))
         } else if samples > 1.5 && is_forward(samples, self.tolerance(samples, rounding)) {
             Ok(samples.round() as u64 - 1)
         } else {
@@ -269,6 +275,14 @@ impl TimeAxis {
             ))
         }
     }
+}
+
+/// Whether most of these distances are equal but for a line: a fault among the lines spoils one or two.
+fn are_mostly_alike(distances: &mut [usize]) -> bool {
+    distances.sort_unstable();
+    let usual = distances[distances.len() / 2];
+    let alike = distances.iter().filter(|one| one.abs_diff(usual) <= 1);
+    4 * alike.count() >= 3 * distances.len()
 }
 
 /// The number of fewest digits within `uncertainty` of `value`.

@@ -33,6 +33,35 @@ fn times_too_large_to_resolve_the_phase_are_warned_of() {
 }
 
 #[test]
+fn dates_have_all_their_digits() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let samples = WAVE.codes(5000);
+    let expected = rows_of(here, &text(&samples), "");
+    // Times of samples in the last digit, or in few of them, and of a double.
+    let prints: [(&str, fn(u64) -> String); 4] = [
+        ("s", |k| format!("1700000000.{k:05}")),
+        ("ms", |k| format!("1700000000{:03}.{:02}", k / 100, k % 100)),
+        ("ns", |k| format!("170000000{:010}", 10_000 * k)),
+        ("s", |k| format!("{:.9}", 1.7e9 + k as f64 / RATE)),
+    ];
+    for (unit, print) in prints {
+        let header = format!("time ({unit}),c,d\n");
+        let dated = timed(&header, 5000, |t| print((t * RATE).round() as u64));
+        fs::write(here.join("a.csv"), &dated).unwrap();
+        let rows = run(here, "identify --output csv a.csv").out;
+        same_later(&Row::all(&rows), &expected, 1.7e9);
+        // A time that goes back is told as it stands there.
+        let lines = dated.lines().count();
+        let cut: Vec<&str> = dated.lines().take(lines - 200).collect();
+        let again = cut[100..].join("\n");
+        fs::write(here.join("a.csv"), cut.join("\n") + "\n" + &again).unwrap();
+        let told = run(here, "identify a.csv").err;
+        assert!(told.contains(" s to 1700000000.000"), "{unit}: {told}");
+    }
+}
+
+#[test]
 fn rows_have_the_recordings_own_time() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();

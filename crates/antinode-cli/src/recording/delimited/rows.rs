@@ -4,6 +4,7 @@ mod ahead;
 
 use super::super::Stream;
 use super::super::columns::Columns;
+use super::super::date::Origin;
 use super::super::error::{CHANNELS, Fault, Place, ROLES, TIME};
 use super::super::forms::remedy;
 use super::super::header::{Header, lossy};
@@ -36,6 +37,8 @@ pub(super) struct Rows {
     pub lines: Lines,
     pub header: Header,
     pub printed: Printed,
+    /// From where on times are counted.
+    origin: Origin,
     /// The counter that the times may come from.
     wrapped: Wrapped,
     /// The times so far, once their rate is known.
@@ -66,6 +69,7 @@ impl Rows {
             lines,
             header,
             printed: Printed::default(),
+            origin: Origin::default(),
             wrapped: Wrapped::default(),
             axis: None,
             not_finite: None,
@@ -99,9 +103,9 @@ impl Rows {
         number::<f64>(text, self.lines.separator).filter(|time| time.is_finite())
     }
 
-    /// This time in s, with what a counter counted before it began anew.
-    fn seconds(&self, time: f64, wrapped: &mut Wrapped) -> f64 {
-        let time = wrapped.unwrapped(time);
+    /// The time in `text` from the origin on, s, which was read as this `time`, with what a counter counted before it began anew.
+    fn seconds(&self, text: &[u8], time: f64, wrapped: &mut Wrapped) -> f64 {
+        let time = wrapped.unwrapped(self.origin.since(text, time));
         time / 10f64.powi(-self.header.exponent)
     }
 
@@ -123,7 +127,7 @@ impl Rows {
         let texts = cut.texts;
         let own_time = self.time(texts[TIME]);
         let mut wrapped = self.wrapped;
-        let time = own_time.map(|time| self.seconds(time, &mut wrapped));
+        let time = own_time.map(|time| self.seconds(texts[TIME], time, &mut wrapped));
         let is_odd = match time {
             Some(time) => self.is_odd(time)?,
             None => false,

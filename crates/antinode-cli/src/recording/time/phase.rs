@@ -16,10 +16,22 @@ pub(super) struct Phase {
 impl Phase {
     /// That of a sample whose printed time has this `error` at most, both in s.
     pub fn near(printed: f64, error: f64) -> Self {
-        Self {
-            earliest: printed - error,
-            latest: printed + error,
-        }
+        Self::between(printed - error, printed + error)
+    }
+
+    /// That between these two, s.
+    pub fn between(earliest: f64, latest: f64) -> Self {
+        Self { earliest, latest }
+    }
+
+    /// One that is this much wider on each side, s.
+    pub fn widened(self, by: f64) -> Self {
+        Self::between(self.earliest - by, self.latest + by)
+    }
+
+    /// That in a time which runs backwards.
+    pub fn reversed(self) -> Self {
+        Self::between(-self.latest, -self.earliest)
     }
 
     /// The time amid these, s.
@@ -39,7 +51,33 @@ impl TimeAxis {
         let last = self
             .phase
             .unwrap_or_else(|| Phase::near(self.last, printed.error(self.last)));
-        let here = Phase::near(now, printed.error(now) + STEP_TOLERANCE * self.step);
+        self.followed(last, self.printed_at(now, printed))
+    }
+
+    /// Where the sample of the first of these times lies, if that of the last lies there; none if a time among them leads astray.
+    pub(super) fn first_phase(
+        &self,
+        times: &[f64],
+        printed: Printed,
+        last: Phase,
+    ) -> Option<Phase> {
+        let (mut phase, mut is_reached) = (last.reversed(), true);
+        for &time in times.iter().rev().skip(1) {
+            let next = self.followed(phase, self.printed_at(time, printed).reversed());
+            is_reached = next.is_some();
+            // A time that is wrong may not fit, and the one before it does.
+            phase = next.map_or(phase, |(_, phase)| phase);
+        }
+        is_reached.then(|| phase.reversed())
+    }
+
+    /// Where a sample may lie whose printed time is this.
+    fn printed_at(&self, time: f64, printed: Printed) -> Phase {
+        Phase::near(time, printed.error(time) + STEP_TOLERANCE * self.step)
+    }
+
+    /// The fewest samples between two phases, and where the second lies if so; none if no number of them does.
+    fn followed(&self, last: Phase, here: Phase) -> Option<(u64, Phase)> {
         let uncertainty = self.uncertainty + DRIFT * self.step;
         let (shortest, longest) = (self.step - uncertainty, self.step + uncertainty);
         let steps = ((here.earliest - last.latest) / longest).ceil();

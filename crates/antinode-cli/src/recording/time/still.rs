@@ -24,7 +24,7 @@ pub(in super::super) fn standstill(times: &[f64], printed: Printed) -> Option<(u
     let fault = if from <= to && usual > 0.0 {
         coarse(printed.step(to), usual)
     } else {
-        backwards(from, to)
+        backwards(from, to, printed)
     };
     Some((at, fault))
 }
@@ -37,7 +37,8 @@ pub(super) fn coarse(step: f64, usual: f64) -> String {
 }
 
 /// What is wrong if time stands still or runs backwards.
-pub(super) fn backwards(from: f64, to: f64) -> String {
+pub(super) fn backwards(from: f64, to: f64, printed: Printed) -> String {
+    let [from, to] = [from, to].map(|time| printed.absolute(time));
     format!(
         "time goes from {from} s to {to} s, but must increase, and what follows is not read; sort the lines, cut the recording here, \
          print times with more digits"

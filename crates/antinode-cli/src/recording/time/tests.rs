@@ -83,6 +83,21 @@ fn rounded_times_give_the_rate() {
 }
 
 #[test]
+fn a_long_pause_is_measured_wherever_it_is() {
+    for (rate, decimals, at, lost) in [
+        (48_000.0, 7, 50_000, 1_000_003),
+        (48_000.0, 7, 80_000, 1_000_003),
+        (99_999.3, 6, 80_000, 300_001),
+        (96_000.0, 5, 140_000, 20_003),
+    ] {
+        let mut text = times(150_000 + lost, rate, 0.0, |t| format!("{t:.decimals$}"));
+        text.drain(at..at + lost);
+        let (_, gaps) = axis(&text, HEAD).unwrap();
+        assert_eq!(gaps, [(at, lost as u64)], "{rate} {decimals}");
+    }
+}
+
+#[test]
 fn a_round_rate_is_found_exactly() {
     for (rate, decimals) in [
         (100_000.0, 5),

@@ -1,5 +1,6 @@
 //! What the lines ahead tell: the rate of times, whether a column counts the samples, and which times are wrong.
 
+use super::super::super::date::Origin;
 use super::super::super::error::{Fault, TIME};
 use super::super::super::time::TimeAxis;
 use super::super::fields::Cut;
@@ -15,15 +16,22 @@ const MIN_ODD: u64 = 4;
 const READ_PER_ODD: u64 = 256;
 
 impl Rows {
-    /// Finds the rate of the times in the next lines, as many as `lines`, and gives these times, s.
+    /// Finds the rate of the times in the next lines, as many as `lines`, and gives these times from the origin on, s.
     pub fn look_ahead(&mut self, lines: usize) -> Result<Vec<f64>, Fault> {
         self.lines.look_ahead(lines)?;
         let (mut times, mut printed, mut wrapped) = (Vec::new(), self.printed, self.wrapped);
-        for line in self.lines.ahead() {
-            let text = Cut::of(line, &self.header).texts[TIME];
+        let texts = || {
+            self.lines
+                .ahead()
+                .map(|line| Cut::of(line, &self.header).texts[TIME])
+        };
+        let first = texts().find(|text| self.time(text).is_some());
+        self.origin = first.map_or(Origin::default(), Origin::of);
+        printed.count_from(self.origin.value() / 10f64.powi(-self.header.exponent));
+        for text in texts() {
             if let Some(time) = self.time(text) {
                 printed.see(text, time, self.header.exponent);
-                times.push(self.seconds(time, &mut wrapped));
+                times.push(self.seconds(text, time, &mut wrapped));
             }
         }
         self.printed = printed;
@@ -50,7 +58,7 @@ impl Rows {
         self.header.places[TIME] = None;
     }
 
-    /// Whether this time, s, is wrong, as the lines behind it continue those before it.
+    /// Whether this time, s from the origin on, is wrong, as the lines behind it continue those before it.
     pub(super) fn is_odd(&mut self, time: f64) -> Result<bool, Fault> {
         for lines in [FEW_AHEAD, MOST_AHEAD] {
             let Some(axis) = &self.axis else {
@@ -64,9 +72,11 @@ impl Rows {
             }
             self.lines.look_ahead(lines)?;
             let ahead = self.lines.ahead().take(lines);
-            let ahead = ahead.filter_map(|line| self.time(Cut::of(line, &self.header).texts[TIME]));
+            let texts = ahead.map(|line| Cut::of(line, &self.header).texts[TIME]);
             let mut wrapped = self.wrapped;
-            let ahead: Vec<f64> = ahead.map(|time| self.seconds(time, &mut wrapped)).collect();
+            let ahead: Vec<f64> = texts
+                .filter_map(|text| Some(self.seconds(text, self.time(text)?, &mut wrapped)))
+                .collect();
             let may_be_between = self.odd < MIN_ODD + self.read / READ_PER_ODD;
             if let Some(is_odd) = axis.is_odd(time, &ahead, self.printed, may_be_between) {
                 self.odd += u64::from(is_odd);

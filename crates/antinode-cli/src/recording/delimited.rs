@@ -50,6 +50,12 @@ pub(super) fn open(stream: Stream, options: &OpenOptions, live: bool) -> Result<
         return Err(source.fault.take().unwrap_or_else(Fault::no_pairs));
     }
     let (sample_rate, start) = (source.rate(), source.start());
+    if options.rate.or(sample_rate).is_none()
+        && let Some(fault) = source.fault.take()
+    {
+        // It may be why the rate is unknown.
+        return Err(fault);
+    }
     let axis = source.times();
     let meaning = match (source.rows.header.sequence, sample_rate) {
         (Some(_), Some(own)) => Some(Meaning::of_rate(own, options.rate)),

@@ -82,6 +82,11 @@ impl TimeAxis {
         let (shortest, longest) = (self.step - uncertainty, self.step + uncertainty);
         let steps = ((here.earliest - last.latest) / longest).ceil();
         let steps = steps.max(1.0);
+        if steps * uncertainty > 0.5 * self.step {
+            // So long a pause tells nothing of the phase, and of its samples only about how many there are.
+            let steps = ((here.middle() - last.middle()) / self.step).round();
+            return Some((steps as u64 - 1, here));
+        }
         let earliest = last.earliest + steps * shortest;
         let latest = last.latest + steps * longest;
         let phase = Phase {

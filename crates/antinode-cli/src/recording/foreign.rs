@@ -40,6 +40,8 @@ const NPZ: &str = "write NPY in Python, `import numpy; z = numpy.load(r'FILE'); 
                    with the names of your two signals for c and d";
 const TDMS: &str = "write text in Python with npTDMS, `from nptdms import TdmsFile; TdmsFile.read(r'FILE').as_dataframe().to_csv('both.csv', \
                     index=False)`";
+const PARQUET: &str = "write text in Python, `import pandas; pandas.read_parquet(r'FILE').to_csv('both.csv', index=False)`";
+const FEATHER: &str = "write text in Python, `import pandas; pandas.read_feather(r'FILE').to_csv('both.csv', index=False)`";
 const SCOPE: &str = "save the waveforms as CSV, on the oscilloscope or by its maker's program";
 const SOX: &str = "convert it, `sox FILE -t wav - | antinode identify -`";
 const LOSSY: &str = "its compression is lossy: record WAV or FLAC; only for a quick look, `sox FILE -t wav - | antinode identify -`";
@@ -48,102 +50,77 @@ const SPICE: &str = "write WAV, which has even steps, by the directive `.wave bo
                      two signals for c and d; they are clipped at 1 V";
 const CANDUMP: &str = "if each frame begins with S_C and S_D, 16 bits each, least significant byte first (otherwise put `s>2` for s<2), \
                        `perl -ne 'print join(\",\", unpack(\"s<2\", pack(\"H*\", $1))), \"\\n\" if /#([0-9A-F]{8})/' FILE | antinode identify -`";
+const GZIP: &str = "unpack it, `gzip -dc FILE | antinode identify -`";
+const BZIP2: &str = "unpack it, `bzip2 -dc FILE | antinode identify -`";
+const XZ: &str = "unpack it, `xz -dc FILE | antinode identify -`";
+const ZSTD: &str = "unpack it, `zstd -dc FILE | antinode identify -`";
+const UN7Z: &str = "if it holds only one recording, `7z x -so FILE | antinode identify -`; otherwise unpack it first";
 const UNZIP: &str = "if it holds only one recording, `unzip -p FILE | antinode identify -`; otherwise unpack it first";
 
 /// MATLAB files of level 4, which have no mark: they are recognised by their extension alone.
-pub(super) static MAT: Foreign = of(b"", 0, "a MATLAB file", MATLAB);
-const ARRAYS: Foreign = of(ZIP, 0, "an NPZ archive of NumPy", NPZ);
-const WORKBOOK: Foreign = of(ZIP, 0, "a spreadsheet", SHEET);
-const ARCHIVE: Foreign = of(ZIP, 0, "a ZIP archive", UNZIP);
+pub(super) static MAT: Foreign = of(b"", "a MATLAB file", MATLAB);
+const ARRAYS: Foreign = of(ZIP, "an NPZ archive of NumPy", NPZ);
+const WORKBOOK: Foreign = of(ZIP, "a spreadsheet", SHEET);
+const ARCHIVE: Foreign = of(ZIP, "a ZIP archive", UNZIP);
 
 static KNOWN: [Foreign; 35] = [
-    of(b"MATLAB 5.0 M", 0, "a MATLAB file", MATLAB),
-    of(b"MATLAB 7.3 M", 0, "a MATLAB file", MATLAB),
-    of(b"Octave-1-", 0, "a binary file of Octave", MATLAB),
-    of(b"\x89HDF\r\n\x1a\n", 0, "an HDF5 file", HDF5),
-    of(b"TDSm", 0, "a TDMS file of LabVIEW", TDMS),
-    of(
-        b"PAR1",
-        0,
-        "a Parquet file",
-        "write text in Python, `import pandas; pandas.read_parquet(r'FILE').to_csv('both.csv', index=False)`",
-    ),
-    of(
-        b"ARROW1\0\0",
-        0,
-        "a Feather file",
-        "write text in Python, `import pandas; pandas.read_feather(r'FILE').to_csv('both.csv', index=False)`",
-    ),
-    of(
-        b"\x1f\x8b\x08",
-        0,
-        "compressed by gzip",
-        "unpack it, `gzip -dc FILE | antinode identify -`",
-    ),
-    of(
-        b"BZh91AY&SY",
-        0,
-        "compressed by bzip2",
-        "unpack it, `bzip2 -dc FILE | antinode identify -`",
-    ),
-    of(
-        b"\xfd7zXZ\0",
-        0,
-        "compressed by xz",
-        "unpack it, `xz -dc FILE | antinode identify -`",
-    ),
-    of(
-        b"\x28\xb5\x2f\xfd",
-        0,
-        "compressed by zstd",
-        "unpack it, `zstd -dc FILE | antinode identify -`",
-    ),
-    of(
-        b"7z\xbc\xaf\x27\x1c",
-        0,
-        "a 7-Zip archive",
-        "if it holds only one recording, `7z x -so FILE | antinode identify -`; otherwise unpack it first",
-    ),
+    of(b"MATLAB 5.0 M", "a MATLAB file", MATLAB),
+    of(b"MATLAB 7.3 M", "a MATLAB file", MATLAB),
+    of(b"Octave-1-", "a binary file of Octave", MATLAB),
+    of(b"\x89HDF\r\n\x1a\n", "an HDF5 file", HDF5),
+    of(b"TDSm", "a TDMS file of LabVIEW", TDMS),
+    of(b"PAR1", "a Parquet file", PARQUET),
+    of(b"ARROW1\0\0", "a Feather file", FEATHER),
+    of(b"\x1f\x8b\x08", "compressed by gzip", GZIP),
+    of(b"BZh91AY&SY", "compressed by bzip2", BZIP2),
+    of(b"\xfd7zXZ\0", "compressed by xz", XZ),
+    of(b"\x28\xb5\x2f\xfd", "compressed by zstd", ZSTD),
+    of(b"7z\xbc\xaf\x27\x1c", "a 7-Zip archive", UN7Z),
     of(
         b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1",
-        0,
         "an Excel workbook",
         SHEET,
     ),
-    of(b"fLaC", 0, "a FLAC file", SOX),
-    of(b"AIF", 8, "an AIFF file", SOX),
-    of(b".snd", 0, "an AU file", SOX),
-    of(b"caff", 0, "a CAF file", SOX),
-    of(b"riff\x2e\x91\xcf\x11", 0, "a Wave64 file", SOX),
-    of(b"OggS", 0, "an Ogg file", LOSSY),
-    of(b"ID3", 0, "an MP3 file", LOSSY),
-    of(b"\xff\xfb", 0, "an MP3 file", LOSSY),
-    of(b":WFM#00", 2, "a waveform of Tektronix (.wfm)", SCOPE),
-    of(b":WFMP", 0, "a waveform of Tektronix (.isf)", SCOPE),
-    of(b":WFMO", 0, "a waveform of Tektronix (.isf)", SCOPE),
-    of(b"WAVEDESC", 0, "a waveform of LeCroy (.trc)", SCOPE),
-    of(b"WAVEDESC", 11, "a waveform of LeCroy (.trc)", SCOPE),
-    of(b"Title: * ", 0, "a file of LTspice (.raw)", SPICE),
-    of(b") can", 18, "a log of candump", CANDUMP),
-    of(b"AG01", 0, "a waveform of Keysight (.bin)", SCOPE),
-    of(b"AG03", 0, "a waveform of Keysight (.bin)", SCOPE),
-    of(b"AG10", 0, "a waveform of Keysight (.bin)", SCOPE),
-    of(b"RG01", 0, "a waveform of Rigol (.bin)", SCOPE),
-    of(b"RG03", 0, "a waveform of Rigol (.bin)", SCOPE),
-    of(b"\xa5\xa5\0\0", 0, "a waveform of Rigol (.wfm)", SCOPE),
-    of(b"\xa5\xa5\x38\0", 0, "a waveform of Rigol (.wfm)", SCOPE),
+    of(b"fLaC", "a FLAC file", SOX),
+    of(b"AIF", "an AIFF file", SOX).at(8),
+    of(b".snd", "an AU file", SOX),
+    of(b"caff", "a CAF file", SOX),
+    of(b"riff\x2e\x91\xcf\x11", "a Wave64 file", SOX),
+    of(b"OggS", "an Ogg file", LOSSY),
+    of(b"ID3", "an MP3 file", LOSSY),
+    of(b"\xff\xfb", "an MP3 file", LOSSY),
+    of(b":WFM#00", "a waveform of Tektronix (.wfm)", SCOPE).at(2),
+    of(b":WFMP", "a waveform of Tektronix (.isf)", SCOPE),
+    of(b":WFMO", "a waveform of Tektronix (.isf)", SCOPE),
+    of(b"WAVEDESC", "a waveform of LeCroy (.trc)", SCOPE),
+    of(b"WAVEDESC", "a waveform of LeCroy (.trc)", SCOPE).at(11),
+    of(b"Title: * ", "a file of LTspice (.raw)", SPICE),
+    of(b") can", "a log of candump", CANDUMP).at(18),
+    of(b"AG01", "a waveform of Keysight (.bin)", SCOPE),
+    of(b"AG03", "a waveform of Keysight (.bin)", SCOPE),
+    of(b"AG10", "a waveform of Keysight (.bin)", SCOPE),
+    of(b"RG01", "a waveform of Rigol (.bin)", SCOPE),
+    of(b"RG03", "a waveform of Rigol (.bin)", SCOPE),
+    of(b"\xa5\xa5\0\0", "a waveform of Rigol (.wfm)", SCOPE),
+    of(b"\xa5\xa5\x38\0", "a waveform of Rigol (.wfm)", SCOPE),
 ];
 
-const fn of(mark: &'static [u8], at: usize, kind: &'static str, remedy: &'static str) -> Foreign {
+/// A format whose mark stands at the beginning.
+const fn of(mark: &'static [u8], kind: &'static str, remedy: &'static str) -> Foreign {
     Foreign {
         mark,
-        at,
+        at: 0,
         kind,
         remedy,
     }
 }
 
 impl Foreign {
+    /// The same with the mark at another offset.
+    const fn at(self, at: usize) -> Self {
+        Self { at, ..self }
+    }
+
     /// The fault of a file of this format.
     pub fn fault(&self) -> Fault {
         let Self { kind, remedy, .. } = self;

@@ -47,8 +47,8 @@ pub enum Ask {
     #[command(allow_negative_numbers = true)]
     Hop {
         /// Blocks, 1 or more; `none`: windows follow each other without gap or overlap.
-        #[arg(value_name = "BLOCKS|none", value_parser = blocks)]
-        blocks: Blocks,
+        #[arg(id = "blocks", value_name = "BLOCKS|none", value_parser = hop)]
+        command: Command,
     },
     /// Changes the calibration of the pick-offs; what is not given stays as it is.
     #[command(allow_negative_numbers = true, arg_required_else_help = true)]
@@ -67,8 +67,8 @@ pub enum Ask {
     #[command(allow_negative_numbers = true)]
     Frequency {
         /// The frequency, Hz, if it is known within 5 %; `search`: it is searched for.
-        #[arg(value_name = "HZ|search", value_parser = frequency)]
-        hertz: Frequency,
+        #[arg(id = "hertz", value_name = "HZ|search", value_parser = frequency)]
+        command: Command,
     },
     /// Turns the allowance for mains hum or a wandering offset on or off.
     Hum {
@@ -92,14 +92,6 @@ pub enum Ask {
     Restart,
 }
 
-/// A hop, or none.
-#[derive(Debug, Clone, Copy)]
-pub struct Blocks(Option<u16>);
-
-/// A known frequency, or none.
-#[derive(Debug, Clone, Copy)]
-pub struct Frequency(Option<f32>);
-
 /// On or off.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Switch {
@@ -115,22 +107,21 @@ impl Switch {
     }
 }
 
-fn blocks(text: &str) -> Result<Blocks, String> {
-    if text == "none" {
-        return Ok(Blocks(None));
-    }
-    match text.parse() {
-        Ok(blocks @ 1..) => Ok(Blocks(Some(blocks))),
-        _ => Err("it must be 1 to 65535 blocks, or none".to_owned()),
-    }
+fn hop(text: &str) -> Result<Command, String> {
+    let blocks = match (text, text.parse()) {
+        ("none", _) => None,
+        (_, Ok(blocks @ 1..)) => Some(blocks),
+        _ => return Err("it must be 1 to 65535 blocks, or none".to_owned()),
+    };
+    Ok(Command::SetHop { blocks })
 }
 
-fn frequency(text: &str) -> Result<Frequency, String> {
-    if text == "search" {
-        return Ok(Frequency(None));
-    }
-    let hertz = ranges::positive(text).map_err(|error| format!("{error}, or search"))?;
-    Ok(Frequency(Some(hertz)))
+fn frequency(text: &str) -> Result<Command, String> {
+    let hertz = match text {
+        "search" => None,
+        _ => Some(ranges::positive(text).map_err(|error| format!("{error}, or search"))?),
+    };
+    Ok(Command::SetFrequency { hertz })
 }
 
 /// Sends a command and prints the answer.
@@ -143,9 +134,7 @@ pub fn run(options: &Options) -> Result<(), Failure> {
             return Ok(writeln!(io::stdout(), "{hello}")?);
         }
         Ask::Window { periods } => Command::SetWindow { periods },
-        Ask::Hop {
-            blocks: Blocks(blocks),
-        } => Command::SetHop { blocks },
+        Ask::Hop { command } | Ask::Frequency { command } => command,
         Ask::Calibration {
             gain_ratio,
             skew_ns,
@@ -158,9 +147,6 @@ pub fn run(options: &Options) -> Result<(), Failure> {
                 pick_off_angle: pick_off_angle.unwrap_or(present.pick_off_angle),
             })
         }
-        Ask::Frequency {
-            hertz: Frequency(hertz),
-        } => Command::SetFrequency { hertz },
         Ask::Hum { switch } => Command::SetHum { on: switch.is_on() },
         Ask::Coloured { switch } => Command::SetColoured { on: switch.is_on() },
         Ask::Methods { switch } => Command::SetMethods { on: switch.is_on() },

@@ -115,28 +115,13 @@ pub enum Command {
 #[command(allow_negative_numbers = true, next_help_heading = "Pick-offs")]
 pub struct Corrected {
     /// Gain of pick-off D over that of C, 0.1 to 10.
-    #[arg(
-        long,
-        default_value_t = 1.0,
-        value_name = "RATIO",
-        value_parser = ranges::gain_ratio
-    )]
+    #[arg(long, default_value_t = 1.0, value_name = "RATIO", value_parser = ranges::gain_ratio)]
     pub gain_ratio: f32,
     /// How much later pick-off D is sampled than C, ns, within ±1000000.
-    #[arg(
-        long,
-        default_value_t = 0.0,
-        value_name = "NS",
-        value_parser = ranges::skew_ns
-    )]
+    #[arg(long, default_value_t = 0.0, value_name = "NS", value_parser = ranges::skew_ns)]
     pub skew_ns: f32,
     /// Pick-off D stands at 45° plus this angle from C, rad, within ±0.3.
-    #[arg(
-        long,
-        default_value_t = 0.0,
-        value_name = "RAD",
-        value_parser = ranges::pick_off_angle
-    )]
+    #[arg(long, default_value_t = 0.0, value_name = "RAD", value_parser = ranges::pick_off_angle)]
     pub pick_off_angle: f32,
 }
 

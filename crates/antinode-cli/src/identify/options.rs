@@ -104,13 +104,7 @@ pub struct Identify {
     #[command(flatten)]
     pub corrected: Corrected,
     /// How rows are printed [default: as the name of --out ends, or else a table].
-    #[arg(
-        long,
-        visible_alias = "format",
-        value_parser = FormatParser,
-        value_name = "FORMAT",
-        help_heading = "Output"
-    )]
+    #[arg(long, visible_alias = "format", value_parser = FormatParser, value_name = "FORMAT", help_heading = "Output")]
     pub output: Option<Format>,
     /// Write rows to this file instead of standard output, `-`: CSV if it ends in .csv, JSON lines if in .jsonl, unless --output says
     /// otherwise.
@@ -181,10 +175,8 @@ impl Identify {
 
     /// The format of the rows: `--output`, or else what the ending of `--out` names, or else a table.
     pub fn format(&self) -> Result<Format, Failure> {
-        if let Some(format) = self.output {
-            return Ok(format);
-        }
-        format_of(self.out.as_deref())
+        self.output
+            .map_or_else(|| format_of(self.out.as_deref()), Ok)
     }
 
     /// The core's settings for a recording of this sample rate, full scale and resolution.

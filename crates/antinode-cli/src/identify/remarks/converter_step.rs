@@ -30,7 +30,7 @@ impl ConverterStep {
             step >= MIN_COARSER * assumed
         } else {
             // Of a step that is no power of two, all samples together show only a power-of-two part.
-            step < assumed && is_power_of_two(coarse / fine)
+            step < assumed && (coarse / fine).log2().fract() == 0.0
         };
         if self.has_warned || !is_other || residual >= DITHERED * coarse {
             return None;
@@ -48,10 +48,6 @@ impl ConverterStep {
             )
         })
     }
-}
-
-fn is_power_of_two(ratio: f32) -> bool {
-    ratio.log2().fract() == 0.0
 }
 
 #[cfg(test)]

@@ -52,7 +52,7 @@ pub use error::{STANDARD_INPUT, unreadable};
 pub use gaps::Gap;
 use not_finite::NotFinite;
 pub use sample::Kind;
-use source::{Counted, Known, Opened, Source, Stream};
+use source::{Counting, Known, Opened, Source, Stream};
 pub use source::{extension, in_utf8, open_file, place};
 pub use write::{RecordingWriter, SampleFormat};
 
@@ -114,7 +114,7 @@ impl Recording {
         };
         let (length, bytes_read) = (known.length, Rc::clone(&known.read));
         let count = Rc::clone(&known.read);
-        match by_content::open(Box::new(Counted { stream, count }), known, options) {
+        match by_content::open(Box::new(Counting { stream, count }), known, options) {
             Ok(opened) => Ok(Self {
                 bytes_read,
                 ..Self::new(name, opened, length)

@@ -264,7 +264,7 @@ impl FirstLine<'_> {
         };
         let places = || columns.iter().copied();
         let place = |wanted: usize| places().find(|&place| role(place) == Some(wanted));
-        let [time, c, d] = [0, 1, 2].map(place);
+        let [time, c, d] = [TIME, 1, 2].map(place);
         // The same name over all columns does not make one of them the time: `HUnit,s,s` of Yokogawa.
         let name = |place: usize| self.names.map(|names| &names[place]);
         let time = time.filter(|&time| places().any(|place| name(place) != name(time)));

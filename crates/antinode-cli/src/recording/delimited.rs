@@ -3,7 +3,7 @@
 mod fields;
 mod rows;
 
-use super::error::Fault;
+use super::error::{Fault, TIME};
 use super::gaps::{Found, Gap, Gaps, are_lost};
 use super::not_finite::Flaw;
 use super::time::{Meaning, TimeAxis, are_paired, roundest, standstill};
@@ -38,13 +38,10 @@ pub(super) fn open(stream: Stream, options: &OpenOptions, live: bool) -> Result<
     if options.rate.is_none() {
         source.rows.header.use_stated_rate();
     }
-    let is_rate_known = live && options.rate.is_some();
-    source.read_ahead(if source.rows.header.places[0].is_none() {
-        FEW_LINES
-    } else if is_rate_known {
-        LIVE_LINES
-    } else {
-        HEAD_LINES
+    source.read_ahead(match source.rows.header.places[TIME] {
+        None => FEW_LINES,
+        Some(_) if live && options.rate.is_some() => LIVE_LINES,
+        Some(_) => HEAD_LINES,
     })?;
     if source.ahead.len() == 0 {
         return Err(source.fault.take().unwrap_or_else(Fault::no_pairs));
@@ -103,7 +100,7 @@ impl Delimited {
     /// Reads as many lines as it takes to find the sample rate, and checks their times.
     fn read_ahead(&mut self, head: u64) -> Result<(), Fault> {
         self.rows.find_counter(FEW_LINES as usize)?;
-        let times = match self.rows.header.places[0] {
+        let times = match self.rows.header.places[TIME] {
             Some(_) if self.rows.axis.is_none() => self.rows.look_ahead(head as usize)?,
             _ => Vec::new(),
         };
@@ -142,11 +139,8 @@ impl Delimited {
             }
         }
         let garbled = self.rows.mostly_garbled();
-        let first = broken
-            .into_iter()
-            .chain(garbled)
-            .min_by_key(|&(pair, _)| pair);
-        if let Some((pair, fault)) = first {
+        let faults = broken.into_iter().chain(garbled);
+        if let Some((pair, fault)) = faults.min_by_key(|&(pair, _)| pair) {
             pairs.truncate(pair as usize);
             self.fault = Some(fault);
         }

@@ -6,7 +6,7 @@ use column_units::SignalUnits;
 
 use super::clocks::{self, clocks};
 use super::columns::{Columns, FirstLine, Places};
-use super::error::Fault;
+use super::error::{Fault, TIME};
 use super::heading::is_header;
 use super::lines::{Beginning, Lines};
 use super::sequence::{Sequence, counted};
@@ -85,7 +85,7 @@ impl Header {
             places,
             counter: line.counter(places).filter(|_| chosen.is_none()),
             exponent: 0,
-            sequence: sequence.filter(|_| places[0].is_none()),
+            sequence: sequence.filter(|_| places[TIME].is_none()),
             stated: *stated,
             divisors: [1.0; 2],
             warnings: Vec::new(),
@@ -121,7 +121,7 @@ impl Header {
     /// Takes the rate that the lines above state, if no times give one.
     pub fn use_stated_rate(&mut self) {
         if let (Some(Stated { rate, line }), None, None) =
-            (self.stated, self.places[0], self.sequence)
+            (self.stated, self.places[TIME], self.sequence)
         {
             self.sequence = Some(Sequence {
                 start: 0.0,

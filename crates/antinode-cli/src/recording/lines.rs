@@ -58,14 +58,10 @@ impl Lines {
         let samples = begun.split_off(start.bytes);
         above.append(&mut begun);
         let begun = samples;
-        if let Some((_, unit)) = &mut start.unit {
-            *unit += line as usize;
-        }
-        if let Some((_, units)) = &mut start.units {
-            *units += line as usize;
-        }
-        if let Some(cut) = &mut start.cut {
-            *cut += line as usize;
+        let unit = start.unit.as_mut().map(|(_, line)| line);
+        let units = start.units.as_mut().map(|(_, line)| line);
+        for number in [unit, units, start.cut.as_mut()].into_iter().flatten() {
+            *number += line as usize;
         }
         let end = begun.iter().position(|&byte| byte == b'\n');
         let (first, next) = begun.split_at(end.map_or(begun.len(), |end| end + 1));

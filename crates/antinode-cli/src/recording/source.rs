@@ -78,12 +78,12 @@ pub(super) fn unmarked_utf_16(head: &[u8]) -> Option<&'static [u8]> {
 }
 
 /// A stream that counts the bytes read from it.
-pub(super) struct Counted {
+pub(super) struct Counting {
     pub stream: Stream,
     pub count: Rc<Cell<u64>>,
 }
 
-impl Read for Counted {
+impl Read for Counting {
     fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
         let read = self.stream.read(bytes)?;
         self.count.set(self.count.get() + read as u64);

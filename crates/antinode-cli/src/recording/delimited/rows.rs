@@ -179,7 +179,7 @@ impl Rows {
     /// Goes to the next line that is not blank; false at the end.
     fn advance(&mut self) -> Result<bool, Fault> {
         // Separators alone are a blank line of a spreadsheet if lines have a time; without a time column they are a missing pair.
-        let is_timed = self.header.places[0].is_some();
+        let is_timed = self.header.places[TIME].is_some();
         while self.lines.advance()? {
             if !(is_timed && self.lines.line().fields().all(<[u8]>::is_empty)) {
                 return Ok(true);
@@ -196,7 +196,7 @@ impl Rows {
             place.column = None;
         }
         let description = match broken {
-            Some(broken) if role == 0 => broken,
+            Some(broken) if role == TIME => broken,
             Some(broken) => format!("{broken}, so a sample is missing"),
             None => describe(role, text, read),
         };

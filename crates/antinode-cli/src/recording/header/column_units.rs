@@ -1,6 +1,6 @@
 //! The units of a header's columns: in their names, in the line below, or in the settings above.
 
-use super::super::error::Fault;
+use super::super::error::{Fault, TIME};
 use super::super::lines::Lines;
 use super::super::preamble::Start;
 use super::super::sequence::{Counted, Sequence};
@@ -41,7 +41,7 @@ impl Header {
     ) -> Result<(bool, SignalUnits), Fault> {
         lines.advance()?;
         let name = |role: usize| self.places[role].map_or("", |place| &names[place]);
-        let (time, signals) = (name(0), [name(1), name(2)]);
+        let (time, signals) = (name(TIME), [name(1), name(2)]);
         let own = [1, 2].map(|role| {
             let unit = self.places[role].and_then(|place| below.get(place));
             unit.map_or(String::new(), |unit| bare(unit).to_owned())
@@ -77,7 +77,7 @@ impl Header {
         names: Option<&[String]>,
         start: &Start,
     ) -> Result<Option<String>, Fault> {
-        let Some(place) = self.places[0] else {
+        let Some(place) = self.places[TIME] else {
             return Ok(None);
         };
         // Only now do the settings matter: beside a unit in the header, theirs may be that of the screen.
@@ -151,14 +151,14 @@ impl Header {
         if let Some(counted) = counted {
             // A time column other than the first holds the times themselves.
             let first = counted.has_numbers.then_some(0);
-            let is_first = self.places[0].is_none() || self.places[0] == first;
+            let is_first = self.places[TIME].is_none() || self.places[TIME] == first;
             if is_first && counted.sequence.is_none() {
                 self.sequence = Sequence::read(&found, counted, separator);
             }
             found.truncate(counted.columns);
         }
         let are_bracketed = are_bracketed(&found);
-        let time = match self.places[0] {
+        let time = match self.places[TIME] {
             Some(place) => found.get(place).filter(|unit| {
                 self.sequence.is_some()
                     || unit.is_empty()

@@ -21,7 +21,7 @@ use crate::result_file::ResultFile;
 use crate::runs::{BEYOND_NOISE, Runs, driven};
 use crate::serialized;
 use pick_offs::PickOffs;
-use solve::{Damping, Found, MIN_TURN_BACK, solve};
+use solve::{Decay, Found, MIN_TURN_BACK, solve};
 use undriven::{moments, without_driven};
 
 /// Deviations below which a flaw is not significant.
@@ -207,7 +207,7 @@ fn write_report(
             MIN_TURN_BACK.to_degrees()
         )?;
     }
-    if found.damping == Damping::Changing {
+    if found.decay == Decay::Bent {
         writeln!(
             out,
             "the damping changes while the wave rings down, or a gain of both pick-offs does: this is allowed for"

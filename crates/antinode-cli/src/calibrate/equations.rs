@@ -4,8 +4,8 @@ use nalgebra::DVector;
 
 use super::moments::Run;
 use super::pick_offs::PickOffs;
-use super::solve::{Damping, FLAWS, SPLITS, shares, variances};
-use super::within_period::{WithinPeriod, decay};
+use super::solve::{Decay, FLAWS, SPLITS, shares, variances};
+use super::within_period::{WithinPeriod, mean_decay};
 use crate::runs::per_radian;
 
 /// An equation of least squares: places and factors of unknowns, the value seen, and one over its variance.
@@ -31,7 +31,7 @@ pub struct AtMoment {
 pub fn equations<'a>(
     (index, run): (usize, &'a Run),
     pick_offs: &'a PickOffs,
-    damping: Damping,
+    decay: Decay,
     shared: usize,
     [dc, ds, ws, wc]: [f64; SPLITS],
     unit: f64,
@@ -39,11 +39,12 @@ pub fn equations<'a>(
     let ideal = run.ideal(pick_offs);
     let (first, last) = (run.moments[0].time, run.moments[ideal.len() - 1].time);
     let middle = 0.5 * (first + last);
-    let own = shared + damping.own() * index;
+    let own = shared + decay.own() * index;
     let tangent = (2.0 * pick_offs.angle).tan();
     let noise_gains = pick_offs.noise_gains();
     let mut sums = Sums::default();
-    let mut within_period = WithinPeriod::new(decay(&ideal, last - first), [dc, ds, ws, wc], unit);
+    let mut within_period =
+        WithinPeriod::new(mean_decay(&ideal, last - first), [dc, ds, ws, wc], unit);
     let each = run.moments.iter().zip(ideal);
     each.map(move |(moment, ideal)| {
         let [energy, r, s, q] = shares(ideal);
@@ -103,7 +104,7 @@ pub fn equations<'a>(
             }
         };
         let mut of_energy = equation(of_energy, energy.ln() - of_energy_within, own, variances[0]);
-        let bend = damping.bend_at(own).map(|place| (place, time * time));
+        let bend = decay.bend_at(own).map(|place| (place, time * time));
         of_energy.entries.extend(bend);
         AtMoment {
             time: moment.time / unit,

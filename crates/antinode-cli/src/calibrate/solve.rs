@@ -36,23 +36,24 @@ const MAX_STEP: f64 = 0.3;
 /// Step below which the search has converged, whatever the noise.
 const SETTLED: f64 = 1e-10;
 
-/// What is assumed of the damping.
+/// How ln E falls in a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Damping {
-    Steady,
-    /// It changes steadily within each run: ln E is a parabola, whose bend is the last unknown of the run.
-    Changing,
+pub enum Decay {
+    /// Along a straight line: the damping is steady.
+    Straight,
+    /// Along a parabola, as the damping changes steadily; its bend is the last unknown of the run.
+    Bent,
 }
 
-impl Damping {
+impl Decay {
     /// Number of unknowns of a run.
     pub fn own(self) -> usize {
-        OWN + usize::from(self == Self::Changing)
+        OWN + usize::from(self == Self::Bent)
     }
 
     /// The place of a run's bend, if it is an unknown, for that of its first unknown.
     pub fn bend_at(self, own: usize) -> Option<usize> {
-        (self == Self::Changing).then_some(own + OWN)
+        (self == Self::Bent).then_some(own + OWN)
     }
 }
 
@@ -64,9 +65,9 @@ pub struct Found {
     pub deviations: [f64; 3],
     /// The rms residual over the rows' own deviations: 1 in noise alone.
     pub residual: f64,
-    /// The damping, and the deviations by which it changes in a run, at most.
-    pub damping: Damping,
-    changes: f64,
+    /// How ln E falls, and the deviations by which it is bent in a run, at most.
+    pub decay: Decay,
+    bent: f64,
     /// True if the resonator's splits are among the unknowns.
     pub knows_splits: bool,
     /// Largest turns within a run, rad: backwards, at most 0, and forwards, at least 0.
@@ -80,16 +81,14 @@ const UNSETTLED: &str = "no calibration explains the rows: check that S_C and S_
 /// Finds the calibration with which energy and quadrature run evenly; the search begins at `start`. If the damping is seen to change, this
 /// is allowed for: flaws of pick-offs would look like it. Fails with what is wrong with the rows.
 pub fn solve(runs: &[Run], start: PickOffs) -> Result<Found, String> {
-    let steady = search(runs, Damping::Steady, start)?;
-    let changing = search(runs, Damping::Changing, steady.pick_offs);
-    let changing = changing
-        .ok()
-        .filter(|found| found.changes > SEEN && found.residual < EXPLAINED);
-    Ok(changing.unwrap_or(steady))
+    let straight = search(runs, Decay::Straight, start)?;
+    let bent = search(runs, Decay::Bent, straight.pick_offs);
+    let is_seen = |found: &Found| found.bent > SEEN && found.residual < EXPLAINED;
+    Ok(bent.ok().filter(is_seen).unwrap_or(straight))
 }
 
-/// The same if this is assumed of the damping.
-fn search(runs: &[Run], damping: Damping, start: PickOffs) -> Result<Found, String> {
+/// The same if ln E falls like this.
+fn search(runs: &[Run], decay: Decay, start: PickOffs) -> Result<Found, String> {
     let turned = runs.iter().fold([0f64; 2], |[back, forth], run| {
         [back.min(run.turns[0]), forth.max(run.turns[1])]
     });
@@ -107,7 +106,7 @@ fn search(runs: &[Run], damping: Damping, start: PickOffs) -> Result<Found, Stri
     let mut pick_offs = start;
     let mut splits = knows_splits.then_some([0.0; SPLITS]);
     for _ in 0..STEPS {
-        let normal = Normal::of(runs, &pick_offs, damping, splits);
+        let normal = Normal::of(runs, &pick_offs, decay, splits);
         let unknowns = normal.equations.unknowns();
         let Some(factors) = normal.equations.factors(0.0) else {
             return Err(UNSETTLED.to_owned());
@@ -130,14 +129,14 @@ fn search(runs: &[Run], damping: Damping, start: PickOffs) -> Result<Found, Stri
             let residual_squares = (normal.squares - normal.equations.right().dot(&step)).max(0.0);
             let residual = (residual_squares / (2 * rows - unknowns) as f64).sqrt();
             let variances =
-                variances_of_flaws(runs, &pick_offs, damping, (&factors, unknowns), splits);
-            let deviation = |i: usize| variances[i].sqrt() * residual.max(1.0);
-            let first = unknowns - damping.own() * runs.len();
-            let bends =
-                (0..runs.len()).filter_map(|run| damping.bend_at(first + damping.own() * run));
-            let changes = bends.map(|at| {
-                step[at].abs() / (factors.variance(&[(at, 1.0)]).sqrt() * residual.max(1.0))
-            });
+                variances_of_flaws(runs, &pick_offs, decay, (&factors, unknowns), splits);
+            let widening = residual.max(1.0);
+            let deviation = |i: usize| variances[i].sqrt() * widening;
+            let bent =
+                |at: usize| step[at].abs() / (factors.variance(&[(at, 1.0)]).sqrt() * widening);
+            let own = decay.own();
+            let firsts = (unknowns - own * runs.len()..unknowns).step_by(own);
+            let bends = firsts.filter_map(|first| decay.bend_at(first));
             return Ok(Found {
                 pick_offs,
                 deviations: [
@@ -146,8 +145,8 @@ fn search(runs: &[Run], damping: Damping, start: PickOffs) -> Result<Found, Stri
                     deviation(2),
                 ],
                 residual,
-                damping,
-                changes: changes.fold(0.0, f64::max),
+                decay,
+                bent: bends.map(bent).fold(0.0, f64::max),
                 knows_splits,
                 turned,
             });
@@ -160,7 +159,7 @@ fn search(runs: &[Run], damping: Damping, start: PickOffs) -> Result<Found, Stri
 fn variances_of_flaws(
     runs: &[Run],
     pick_offs: &PickOffs,
-    damping: Damping,
+    decay: Decay,
     (factors, unknowns): (&Factors, usize),
     splits: Option<[f64; SPLITS]>,
 ) -> [f64; FLAWS] {
@@ -171,7 +170,7 @@ fn variances_of_flaws(
         let longest = longest(runs);
         for run in runs.iter().enumerate() {
             let shared = FLAWS + SPLITS;
-            let moments = equations(run, pick_offs, damping, shared, splits, longest);
+            let moments = equations(run, pick_offs, decay, shared, splits, longest);
             let more = by_integrals(moments, splits, &of_flaws);
             for (variance, more) in variances.iter_mut().zip(more) {
                 *variance += more;
@@ -197,15 +196,10 @@ struct Normal {
 }
 
 impl Normal {
-    fn of(
-        runs: &[Run],
-        pick_offs: &PickOffs,
-        damping: Damping,
-        splits: Option<[f64; SPLITS]>,
-    ) -> Self {
+    fn of(runs: &[Run], pick_offs: &PickOffs, decay: Decay, splits: Option<[f64; SPLITS]>) -> Self {
         let shared = FLAWS + splits.map_or(0, |splits| splits.len());
         let mut normal = Self {
-            equations: Equations::new(shared, damping.own(), runs.len()),
+            equations: Equations::new(shared, decay.own(), runs.len()),
             squares: 0.0,
             omega: 0.0,
         };
@@ -214,7 +208,7 @@ impl Normal {
             for moment in equations(
                 (index, run),
                 pick_offs,
-                damping,
+                decay,
                 shared,
                 splits.unwrap_or_default(),
                 longest,

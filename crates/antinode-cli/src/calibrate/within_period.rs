@@ -7,7 +7,7 @@ use super::solve::{SPLITS, shares};
 use crate::runs::{per_radian, turn};
 
 /// Mean decay rate of the amplitude in so many `seconds`, 1/s, by the energy of the first and the last of these phasors.
-pub fn decay(ideal: &[[Complex<f64>; 2]], seconds: f64) -> f64 {
+pub fn mean_decay(ideal: &[[Complex<f64>; 2]], seconds: f64) -> f64 {
     let energy = |phasors| shares(phasors)[0];
     0.5 * (energy(ideal[0]) / energy(ideal[ideal.len() - 1])).ln() / seconds
 }

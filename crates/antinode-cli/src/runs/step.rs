@@ -52,28 +52,28 @@ pub fn steps(rows: &[Row], circles: &[usize]) -> Vec<usize> {
 /// The wave's step at the middle one of these rows, over the largest that may seem to be there without a step.
 fn step_ratio(rows: &[Row]) -> f64 {
     let circular = |row: &Row| row.quadrature.abs() > CIRCULAR_RATIO * row.main;
-    let Some(times) = Times::of(rows).filter(|_| !rows.iter().any(circular)) else {
+    let Some(about) = About::of(rows).filter(|_| !rows.iter().any(circular)) else {
         return 0.0;
     };
     let middle = rows[SIDE];
-    let of_main = times.course(rows, |row| row.log_beside(&middle));
-    let of_ratio = times.course(rows, Row::ratio);
+    let of_main = about.step(rows, |row| row.log_beside(&middle));
+    let of_ratio = about.step(rows, Row::ratio);
     let largest = |more: f64| {
-        let ratio = |course: Course| course.step.abs() / (course.allowed + more);
-        let [by_main, by_ratio] = [of_main, of_ratio].map(|course| course.map_or(0.0, ratio));
+        let ratio = |step: Step| step.size.abs() / (step.allowed + more);
+        let [by_main, by_ratio] = [of_main, of_ratio].map(|step| step.map_or(0.0, ratio));
         by_main.max(by_ratio)
     };
     if largest(0.0) < 1.0 {
         return 0.0;
     }
-    let of_angle = times.course(rows, |row| {
+    let of_angle = about.step(rows, |row| {
         (turn(row.angle - middle.angle), row.deviations[2])
     });
-    of_angle.map_or(0.0, |course| largest(STEP_BY_FLAWS * course.step.abs()))
+    of_angle.map_or(0.0, |step| largest(STEP_BY_FLAWS * step.size.abs()))
 }
 
 /// The times of rows about a middle one, from halfway between its neighbours, in units of the longer side.
-struct Times {
+struct About {
     times: [f64; 2 * SIDE],
     /// Distance of the neighbours from there.
     near: f64,
@@ -81,8 +81,8 @@ struct Times {
 
 /// The step of a quantity at a row.
 #[derive(Debug, Clone, Copy)]
-struct Course {
-    step: f64,
+struct Step {
+    size: f64,
     /// The largest step that there may seem to be without one.
     allowed: f64,
 }
@@ -92,7 +92,7 @@ fn beside(rows: &[Row]) -> impl Iterator<Item = &Row> {
     rows[..SIDE].iter().chain(&rows[SIDE + 1..])
 }
 
-impl Times {
+impl About {
     /// `None` if the rows are too unevenly spaced.
     fn of(rows: &[Row]) -> Option<Self> {
         let (before, after) = (rows[SIDE - 1].time, rows[SIDE + 1].time);
@@ -110,8 +110,8 @@ impl Times {
         })
     }
 
-    /// Fits the course of a quantity; `of` gives its value and deviation in a row.
-    fn course(&self, rows: &[Row], of: impl Fn(&Row) -> (f64, f64)) -> Option<Course> {
+    /// Fits the step of a quantity; `of` gives its value and deviation in a row.
+    fn step(&self, rows: &[Row], of: impl Fn(&Row) -> (f64, f64)) -> Option<Step> {
         let mut matrix = SMatrix::<f64, UNKNOWNS, UNKNOWNS>::zeros();
         let mut right = SVector::<f64, UNKNOWNS>::zeros();
         let mut squares = 0.0;
@@ -128,8 +128,8 @@ impl Times {
         let found = covariance * right;
         let misfit = (squares - found.dot(&right)) / (2 * SIDE - UNKNOWNS) as f64;
         let noise = covariance[(STEP, STEP)].sqrt() * misfit.max(1.0);
-        Some(Course {
-            step: found[STEP],
+        Some(Step {
+            size: found[STEP],
             allowed: SIGMAS * noise + MAX_BEND * found[BEND].abs() * self.near,
         })
     }

@@ -39,8 +39,8 @@ fn run() -> Run {
 }
 
 fn of(run: &Run, pick_offs: &PickOffs, splits: [f64; SPLITS]) -> Vec<AtMoment> {
-    let damping = Damping::Steady;
-    equations((0, run), pick_offs, damping, FLAWS + SPLITS, splits, UNIT).collect()
+    let decay = Decay::Straight;
+    equations((0, run), pick_offs, decay, FLAWS + SPLITS, splits, UNIT).collect()
 }
 
 /// What is seen, without the part of the splits.
@@ -87,7 +87,7 @@ fn factors_of_flaws_are_derivatives() {
 #[test]
 fn noise_in_the_integrals_adds_the_variance_that_differences_show() {
     let run = run();
-    let unknowns = FLAWS + SPLITS + Damping::Steady.own();
+    let unknowns = FLAWS + SPLITS + Decay::Straight.own();
     // What changes of the right-hand side do to a solution: any numbers.
     let of_flaws = [0.0, 1.0, 2.0]
         .map(|flaw| DVector::from_fn(unknowns, |at, _| (flaw + 1.7 * at as f64).sin()));

@@ -278,10 +278,10 @@ fn damping_that_changes_falsifies_nothing() {
         angle: -0.01,
     };
     // 1/τ rises by 0, 1 and 10 % meanwhile.
-    for (change, damping) in [
-        (0.0, Damping::Steady),
-        (0.01, Damping::Changing),
-        (0.1, Damping::Changing),
+    for (change, decay) in [
+        (0.0, Decay::Straight),
+        (0.01, Decay::Bent),
+        (0.1, Decay::Bent),
     ] {
         let mut squares = [0.0; FLAWS];
         let trials = 60;
@@ -302,7 +302,7 @@ fn damping_that_changes_falsifies_nothing() {
                 run
             });
             let found = solve(&runs, PickOffs::IDEAL).unwrap();
-            assert_eq!(found.damping, damping, "{change}: {}", found.changes);
+            assert_eq!(found.decay, decay, "{change}: {}", found.bent);
             let [of_gain, of_skew, of_angle] = found.deviations;
             let deviations = [of_gain / truth.gain_ratio, of_skew * OMEGA, of_angle];
             let errors = errors(&found.pick_offs, &truth).into_iter().zip(deviations);

@@ -20,10 +20,13 @@ const COLUMNS: [&str; 8] = [
     "angle_std_rad",
 ];
 
-/// Columns that rows may lack: deviations of the frequency, Hz, of the decay rate, 1/s, and of the phase, rad.
-const OTHER_DEVIATIONS: [&str; 3] = ["frequency_std_hz", "decay_rate_std_s", "phase_std_rad"];
-/// The column of the phase, which rows may lack too.
-const PHASE: &str = "phase_rad";
+/// Columns that rows may lack.
+const OTHERS: [&str; 4] = [
+    "phase_rad",
+    "frequency_std_hz",
+    "decay_rate_std_s",
+    "phase_std_rad",
+];
 
 /// Curves that make up an unsteady turn.
 pub const BOWS: usize = 3;
@@ -57,8 +60,7 @@ pub struct Row {
 /// Places of the columns.
 pub struct Places {
     needed: [usize; COLUMNS.len()],
-    others: [Option<usize>; OTHER_DEVIATIONS.len()],
-    phase: Option<usize>,
+    others: [Option<usize>; OTHERS.len()],
 }
 
 impl Places {
@@ -68,12 +70,8 @@ impl Places {
         for (to, column) in needed.iter_mut().zip(COLUMNS) {
             *to = rows.needed(column)?;
         }
-        let others = OTHER_DEVIATIONS.map(|column| rows.place(column));
-        Ok(Self {
-            needed,
-            others,
-            phase: rows.place(PHASE),
-        })
+        let others = OTHERS.map(|column| rows.place(column));
+        Ok(Self { needed, others })
     }
 
     /// The time of a row, s, and its angle, rad, if they are numbers.
@@ -84,7 +82,8 @@ impl Places {
 
     /// The time of a row, s, if it is a number.
     pub fn time(&self, record: &StringRecord) -> Option<f64> {
-        number(record, self.needed[0])
+        let [time, ..] = self.needed;
+        number(record, time)
     }
 }
 
@@ -186,7 +185,7 @@ impl Row {
         }
         let deviations = [size(of_main)?, size(of_quadrature)?, size(of_angle)?];
         let [of_main, ..] = deviations;
-        let [of_frequency, of_rate, of_phase] = places.others;
+        let [phase, of_frequency, of_rate, of_phase] = places.others;
         let of_frequency = deviation(of_frequency)?;
         let (of_rate, of_phase) = (deviation(of_rate)?, deviation(of_phase)?);
         // The phase belongs to the time before rounding: doubles as large as a date, in s since 1970, are 0.2 µs apart.
@@ -198,7 +197,7 @@ impl Row {
             main: main - 0.5 * (more + less),
             quadrature: quadrature - 0.5 * (more - less),
             angle,
-            phase: places.phase.and_then(|place| finite(place).ok()),
+            phase: phase.and_then(|place| finite(place).ok()),
             phase_deviation: of_phase.hypot(rounded),
             frequency,
             frequency_deviation: of_frequency,

@@ -64,11 +64,12 @@ pub fn run(options: &Study) -> Result<(), Failure> {
         ))
     })?;
     let simulated = &options.simulated;
-    let first = noise_free::against_periods(simulated);
-    let second = noise_free::against_samples(simulated);
-    let third = noisy::against_noise(simulated, options.runs, options.seed);
-
-    for figure in [&first, &second, &third] {
+    let figures = [
+        noise_free::against_periods(simulated),
+        noise_free::against_samples(simulated),
+        noisy::against_noise(simulated, options.runs, options.seed),
+    ];
+    for figure in &figures {
         let path = options.out.join(format!("figure-{}.csv", figure.number));
         table::write(&path, figure, &simulated.wave())
             .map_err(|error| unwritable(&path.display().to_string(), &error.into()))?;
@@ -81,10 +82,7 @@ pub fn run(options: &Study) -> Result<(), Failure> {
     }
 
     let mut out = io::stdout().lock();
-    let panels: usize = [&first, &second, &third]
-        .iter()
-        .map(|figure| figure.panels.len())
-        .sum();
+    let panels: usize = figures.iter().map(|figure| figure.panels.len()).sum();
     writeln!(
         out,
         "{panels} panels as SVG and PNG, and 3 tables as CSV, are in {}; {} runs a point in figure 3, seed {}.\n{simulated}\n",
@@ -99,7 +97,7 @@ pub fn run(options: &Study) -> Result<(), Failure> {
         )?;
         return Ok(());
     }
-    for conclusion in conclusions::check(&simulated.wave(), &first, &second, &third, options) {
+    for conclusion in conclusions::check(&simulated.wave(), &figures, options) {
         let verdict = conclusion.verdict.text();
         writeln!(out, "{verdict:>13}  {}", conclusion.claim)?;
         for line in conclusion.found.lines() {

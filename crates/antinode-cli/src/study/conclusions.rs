@@ -61,9 +61,7 @@ const PHASES: u32 = 100;
 /// Checks all conclusions.
 pub fn check(
     wave: &Wave,
-    first: &Figure,
-    second: &Figure,
-    third: &Figure,
+    [first, second, third]: &[Figure; 3],
     options: &Study,
 ) -> Vec<Conclusion> {
     vec![

@@ -72,10 +72,12 @@ fn conclusions_and_files_are_as_in_the_documentation() {
         simulated: Simulated::PAPER,
     };
     run(&options).expect("a study");
-    let first = noise_free::against_periods(&Simulated::PAPER);
-    let second = noise_free::against_samples(&Simulated::PAPER);
-    let third = noisy::against_noise(&Simulated::PAPER, 500, 1);
-    let found = conclusions::check(&wave, &first, &second, &third, &options);
+    let figures = [
+        noise_free::against_periods(&Simulated::PAPER),
+        noise_free::against_samples(&Simulated::PAPER),
+        noisy::against_noise(&Simulated::PAPER, 500, 1),
+    ];
+    let found = conclusions::check(&wave, &figures, &options);
     let verdicts: Vec<Verdict> = found.iter().map(|conclusion| conclusion.verdict).collect();
     let mut expected = [Verdict::Confirmed; 14];
     expected[5] = Verdict::InPart;

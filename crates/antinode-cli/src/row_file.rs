@@ -3,7 +3,7 @@
 mod lines;
 mod objects;
 
-use std::io::{self, BufRead, BufReader, Chain, Cursor, IsTerminal, Read};
+use std::io::{self, BufReader, Chain, Cursor, IsTerminal, Read};
 use std::path::Path;
 
 use antinode::Flags;
@@ -13,12 +13,8 @@ use crate::failure::Failure;
 use crate::recording::{STANDARD_INPUT, in_utf8, open_file};
 use crate::rows::MAIN_AMPLITUDE;
 use crate::tell::tell;
-use lines::{Lines, is_skipped};
+use lines::{Lines, head, holds};
 
-/// Longest header of rows, bytes.
-const MAX_HEADER: u64 = 1 << 16;
-/// Most lines above the heading of a table.
-const MAX_ABOVE_TABLE: usize = 4;
 /// Separators of fields: spreadsheets write a semicolon if their decimal mark is a comma, and a tab in files of text.
 const MARKS: [u8; 3] = *b",;\t";
 
@@ -209,35 +205,6 @@ impl RowFile {
             _ => unreadable(&self.name, line, error),
         }
     }
-}
-
-/// The first lines, up to the one that may be a header, and where that begins; if it is none, also the lines that may stand above a
-/// table's heading.
-fn head(source: &mut impl BufRead) -> io::Result<(Vec<u8>, usize)> {
-    let mut head = Vec::new();
-    let mut line = |head: &mut Vec<u8>| {
-        let begun = head.len();
-        let read = source.by_ref().take(MAX_HEADER).read_until(b'\n', head)?;
-        io::Result::Ok((begun, read > 0))
-    };
-    loop {
-        let (begun, is_line) = line(&mut head)?;
-        if is_line && is_skipped(&head[begun..]) {
-            continue;
-        }
-        if !holds(&head[begun..], TIME) {
-            for _ in 0..MAX_ABOVE_TABLE {
-                line(&mut head)?;
-            }
-        }
-        return Ok((head, begun));
-    }
-}
-
-/// Whether a text contains these words.
-fn holds(text: &[u8], words: &str) -> bool {
-    text.windows(words.len())
-        .any(|text| text == words.as_bytes())
 }
 
 /// A field of a row that is not what it must be.

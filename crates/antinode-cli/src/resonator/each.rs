@@ -168,10 +168,8 @@ fn line(file: String, results: &Results) -> Line {
 fn table(out: &mut impl Write, lines: &[Line]) -> io::Result<()> {
     let none = || "–".to_owned();
     let measured = |line: &Line, name: &str, units: f64| {
-        let mut columns = COLUMNS.iter().zip(&line.quantities);
-        let found = columns.find(|([value, _], _)| *value == name);
-        let (_, measured) = found?;
-        let (value, std) = (*measured)?;
+        let column = COLUMNS.iter().position(|[value, _]| *value == name)?;
+        let (value, std) = line.quantities[column]?;
         Some(with_small_std(value * units, std * units).trim().to_owned())
     };
     let cells = lines.iter().map(|line| {

@@ -7,7 +7,7 @@ use super::fit;
 use super::is_alike;
 use super::model::{Damping, Kind, Model};
 use crate::normal::Factors;
-use crate::runs::{BEYOND_NOISE, EXPLAINED, Run};
+use crate::runs::{BEYOND_NOISE, EXPLAINED};
 
 /// Deviations below which the turning of patterns by amplitudes is taken to be 0: a higher limit would miss more than it spares.
 const NONLINEAR_USED: f64 = 2.0;
@@ -57,16 +57,6 @@ pub(super) struct RunResult {
 
 /// A value and its standard deviation.
 pub type Measured = (f64, f64);
-
-/// Contributions to the frequency of a row.
-pub struct Moved {
-    /// The part due to the splits, rad/s, as coefficients for [`Found::splits`].
-    pub by_splits: [f64; 4],
-    /// The same, averaged since the row before by Simpson's rule.
-    pub by_splits_since: [f64; 4],
-    /// Change of the part due to the pattern's turning since the row before, rad/s.
-    pub change: f64,
-}
 
 /// The resonator that the runs share.
 #[derive(Debug)]
@@ -267,37 +257,6 @@ impl Found {
     pub fn is_nonlinear(&self) -> bool {
         self.turning_by_amplitudes()
             .is_some_and(|(turning, std)| turning.abs() > NONLINEAR_USED * std)
-    }
-
-    /// The contributions to the frequency of each row.
-    pub fn frequency_moved(&self, runs: &[Run]) -> Vec<Moved> {
-        let mut list = Vec::new();
-        for (index, run) in runs.iter().enumerate() {
-            let terms = self.model.terms(index, run);
-            let parameters = Model::parameters(&terms, &self.values);
-            let mut motion = self.model.motion(run, &parameters);
-            let mut last = &run.rows[0];
-            let mut before = motion.frequency_by_turning();
-            let mut by_splits_before = motion.frequency_by_splits(0.0);
-            for row in &run.rows {
-                self.model.advance(&mut motion, last, row);
-                let half_back = 0.5 * (last.time - row.time);
-                last = row;
-                let by_turning = motion.frequency_by_turning();
-                let by_splits = motion.frequency_by_splits(0.0);
-                let between = motion.frequency_by_splits(half_back);
-                let by_splits_since = std::array::from_fn(|i| {
-                    (by_splits_before[i] + 4.0 * between[i] + by_splits[i]) / 6.0
-                });
-                by_splits_before = by_splits;
-                list.push(Moved {
-                    by_splits,
-                    by_splits_since,
-                    change: by_turning - std::mem::replace(&mut before, by_turning),
-                });
-            }
-        }
-        list
     }
 
     /// A linear combination of both components of the damping split and both of the frequency split; 0 if they are not determined.

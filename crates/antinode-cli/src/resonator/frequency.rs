@@ -4,11 +4,12 @@ use std::f64::consts::TAU;
 
 use super::by_energy::{ByEnergy, Point, by_energy, without_mean};
 use super::drift::drift;
-use super::found::{Found, Measured, Moved};
+use super::found::{Found, Measured};
 use super::is_alike;
+use super::model::Model;
 use super::stretches::{RowFrequency, stretches};
 use crate::line::weighted_mean;
-use crate::runs::{Row, Runs};
+use crate::runs::{Row, Run, Runs};
 
 /// Stretches per run to aim at, if it has that many rows.
 const STRETCHES: usize = 100;
@@ -31,9 +32,50 @@ pub struct Frequency {
     pub contradicted: Option<f64>,
 }
 
+/// Contributions to the frequency of a row.
+pub(super) struct Moved {
+    /// The part due to the splits, rad/s, as coefficients for [`Found::splits`].
+    pub by_splits: [f64; 4],
+    /// The same, averaged since the row before by Simpson's rule.
+    pub by_splits_since: [f64; 4],
+    /// Change of the part due to the pattern's turning since the row before, rad/s.
+    pub change: f64,
+}
+
+/// The contributions to the frequency of each row.
+pub(super) fn moved(found: &Found, runs: &[Run]) -> Vec<Moved> {
+    let mut list = Vec::new();
+    for (index, run) in runs.iter().enumerate() {
+        let terms = found.model.terms(index, run);
+        let parameters = Model::parameters(&terms, &found.values);
+        let mut motion = found.model.motion(run, &parameters);
+        let mut last = &run.rows[0];
+        let mut before = motion.frequency_by_turning();
+        let mut by_splits_before = motion.frequency_by_splits(0.0);
+        for row in &run.rows {
+            found.model.advance(&mut motion, last, row);
+            let half_back = 0.5 * (last.time - row.time);
+            last = row;
+            let by_turning = motion.frequency_by_turning();
+            let by_splits = motion.frequency_by_splits(0.0);
+            let between = motion.frequency_by_splits(half_back);
+            let by_splits_since = std::array::from_fn(|i| {
+                (by_splits_before[i] + 4.0 * between[i] + by_splits[i]) / 6.0
+            });
+            by_splits_before = by_splits;
+            list.push(Moved {
+                by_splits,
+                by_splits_since,
+                change: by_turning - std::mem::replace(&mut before, by_turning),
+            });
+        }
+    }
+    list
+}
+
 /// The mean frequency by the phases of rows, or without these if they contradict the rows' own frequencies, as where times are rounded.
 pub fn frequency(rows: &mut Runs, found: &Found) -> Frequency {
-    let moved = found.frequency_moved(&rows.runs);
+    let moved = moved(found, &rows.runs);
     let by_phases = by_stretches(rows, &moved, found);
     let (mean, _) = by_phases.mean;
     if !is_contradicted(mean, rows, &moved, found) {

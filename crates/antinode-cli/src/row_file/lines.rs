@@ -2,6 +2,12 @@
 
 use std::io::{self, BufRead, Read};
 
+use super::TIME;
+
+/// Longest header of rows, bytes.
+const MAX_HEADER: u64 = 1 << 16;
+/// Most lines above the heading of a table.
+const MAX_ABOVE_TABLE: usize = 4;
 /// Longest line, bytes: a file without ends of line must not fill the memory.
 const MAX_LINE: usize = 1 << 24;
 
@@ -12,6 +18,35 @@ const MARK: &[u8] = b"sep=";
 pub(super) fn is_skipped(line: &[u8]) -> bool {
     let is_empty = line.iter().all(|byte| b",;\t \"\r\n".contains(byte));
     is_empty || line.starts_with(b"#") || line.starts_with(MARK)
+}
+
+/// The first lines, up to the one that may be a header, and where that begins; if it is none, also the lines that may stand above a
+/// table's heading.
+pub(super) fn head(source: &mut impl BufRead) -> io::Result<(Vec<u8>, usize)> {
+    let mut head = Vec::new();
+    let mut line = |head: &mut Vec<u8>| {
+        let begun = head.len();
+        let read = source.by_ref().take(MAX_HEADER).read_until(b'\n', head)?;
+        io::Result::Ok((begun, read > 0))
+    };
+    loop {
+        let (begun, is_line) = line(&mut head)?;
+        if is_line && is_skipped(&head[begun..]) {
+            continue;
+        }
+        if !holds(&head[begun..], TIME) {
+            for _ in 0..MAX_ABOVE_TABLE {
+                line(&mut head)?;
+            }
+        }
+        return Ok((head, begun));
+    }
+}
+
+/// Whether a text contains these words.
+pub(super) fn holds(text: &[u8], words: &str) -> bool {
+    text.windows(words.len())
+        .any(|text| text == words.as_bytes())
 }
 
 /// Lines that end in `\n` alone, given one at a time: a reader at the end of a row has no byte of the next.

@@ -1,6 +1,6 @@
 //! What the frequency uses of a fit.
 
-use super::super::super::frequency::{Frequency, frequency};
+use super::super::super::frequency::{Frequency, frequency, moved};
 use super::*;
 use crate::runs::Runs;
 
@@ -52,7 +52,7 @@ fn the_splits_part_of_the_frequency_is_averaged_across_rows_left_out() {
     let phases = |run: Run| {
         let runs = [run];
         let found = found(&runs, Model::steady(Kind::Shared)).unwrap();
-        let moved = found.frequency_moved(&runs);
+        let moved = moved(&found, &runs);
         let mut phases = [0.0; 2];
         for (pair, moved) in runs[0].rows.windows(2).zip(moved.windows(2)) {
             let seconds = pair[1].time - pair[0].time;

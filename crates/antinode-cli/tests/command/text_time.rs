@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{RATE, Row, WAVE, done, rows, rows_of, run, same_later, text};
+use crate::common::{RATE, Row, WAVE, done, rows, rows_of, run, run_with, same_later, text};
 
 /// The pairs of [`WAVE`], each with its time as `print` gives it.
 fn timed(header: &str, pairs: usize, print: impl Fn(f64) -> String) -> String {
@@ -238,6 +238,11 @@ fn every_fault_of_the_time_names_the_way_around_it() {
         assert!(fault.err.contains(told), "{}", fault.err);
         let way = "ignore the time column with --columns 2,3 --rate HZ\n";
         assert!(fault.err.ends_with(way), "{}", fault.err);
+        // From a pipe the way is the same, with --rate or without.
+        for arguments in ["identify --rate 1e5 -", "identify -"] {
+            let piped = run_with(here, arguments, fs::read(here.join("a.csv")).unwrap());
+            assert!(piped.err.contains(told), "{}", piped.err);
+        }
         // The way around works.
         assert!(rows(here, "a.csv --columns 2,3 --rate 1e5").len() > 20);
     }

@@ -151,6 +151,23 @@ fn a_sample_lost_between_uneven_steps_is_found() {
 }
 
 #[test]
+fn a_long_pause_costs_no_lines_behind_it() {
+    for (rate, decimals) in [(331_000.0, 5), (802_985.0, 6), (96_000.0, 5)] {
+        for at in [46, 30_000, 76_000] {
+            let mut text = times(300_000, rate, 0.3, |t| format!("{t:.decimals$}"));
+            text.drain(at..at + 200_000);
+            let (_, gaps) = axis(&text, HEAD).unwrap();
+            // Not all of so many samples can be counted by a rate that is rounded too.
+            let (sum, line) = lost(&gaps);
+            assert!(
+                sum.abs_diff(200_000) < 20 && gaps.len() == 1 && line == at,
+                "{gaps:?}"
+            );
+        }
+    }
+}
+
+#[test]
 fn a_clock_may_drift_though_its_times_are_coarse() {
     let time = |k: f64| k * 1.25e-5 * (1.0 + 2e-11 * k);
     let text: Vec<String> = (0..500_000)

@@ -69,7 +69,7 @@ impl Run {
 
     /// True if rows are missing between the last one, if any, and this.
     pub(super) fn misses_rows_before(&self, row: &Row) -> bool {
-        let &[.., ref before, ref last] = self.rows.as_slice() else {
+        let [.., before, last] = self.rows.as_slice() else {
             return false;
         };
         row.time - last.time > MIN_GAP * (last.time - before.time)

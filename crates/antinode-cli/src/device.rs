@@ -5,6 +5,7 @@ mod describe;
 mod line;
 pub mod monitor;
 mod port;
+mod screen;
 mod source;
 
 /// Default speed of a port, baud: ST-LINK's virtual port and every USB bridge have it, and it carries 800 estimates a second.

@@ -1,15 +1,15 @@
 //! `antinode monitor`: prints what a device reports, as it comes.
 
 use std::io::{self, BufWriter, Write};
-use std::mem;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use antinode_telemetry::{Command, CommandFrame, Damage, MAX_FRAME, Receiver, Report, frame};
+use antinode_telemetry::{Command, CommandFrame, MAX_FRAME, frame};
 use clap::Args;
 
+use super::screen::{GREETING, Screen};
 use super::source::{Input, Source};
-use super::{BAUD, describe, port};
+use super::{BAUD, port};
 use crate::failure::Failure;
 use crate::options::Format;
 use crate::recording::unreadable;
@@ -30,12 +30,6 @@ pub struct Monitor {
     pub baud: u32,
 }
 
-/// The id of the Get that greets a device.
-const GREETING: u16 = 0;
-
-/// Shortest time between messages about damage, which is all that comes at a wrong baud rate, and about reports lost on a slow line.
-const MESSAGE_INTERVAL: Duration = Duration::from_secs(1);
-
 /// Silence of a port, from its opening on, after which a message says so.
 const SILENCE: Duration = Duration::from_secs(3);
 
@@ -49,25 +43,14 @@ pub fn run(options: &Monitor) -> Result<(), Failure> {
     let greeting = frame(&get, &mut greeting).unwrap_or(&[]);
     let source = Source::open(&options.source, options.baud, greeting)?;
     let out = BufWriter::new(io::stdout().lock());
-    let mut screen = Screen {
-        rows: Rows::new(out, options.output, false),
-        name: source.name.clone(),
-        receiver: Receiver::new(),
-        estimates: 0,
-        bytes: 0,
-        // A port may be opened in the middle of a frame; a file is taken to begin with one.
-        is_within_frame: source.is_port,
-        excused: 0,
-        damage: None,
-        told: Instant::now(),
-        lost: 0,
-        lost_told: None,
-    };
+    // A port may be opened in the middle of a frame; a file is taken to begin with one.
+    let rows = Rows::new(out, options.output, false);
+    let mut screen = Screen::new(rows, &source.name, source.is_port);
     let begin = Instant::now();
     let result = follow(&source, &mut screen);
     screen.end(begin.elapsed());
     result?;
-    if screen.receiver.reports() > 0 {
+    if screen.reports() > 0 {
         return Ok(());
     }
     let Screen { name, bytes, .. } = screen;
@@ -125,139 +108,5 @@ fn first(source: &Source) -> Option<Input> {
             ));
             None
         }
-    }
-}
-
-/// The output for the user: rows on standard output, all else on standard error.
-struct Screen<W: Write> {
-    rows: Rows<W>,
-    name: String,
-    receiver: Receiver,
-    estimates: u64,
-    bytes: u64,
-    /// True until the first frame ends, if the bytes may begin in the middle of one.
-    is_within_frame: bool,
-    /// Damage that is not counted: the frame in whose middle the bytes began.
-    excused: u64,
-    /// Damage that is not yet reported: how often, and the last.
-    damage: Option<(u64, Damage)>,
-    /// When damage was last reported.
-    told: Instant,
-    /// The number of lost reports that are not yet reported.
-    lost: u64,
-    /// When lost reports were last reported.
-    lost_told: Option<Instant>,
-}
-
-impl<W: Write> Screen<W> {
-    fn take(&mut self, bytes: &[u8]) -> Result<(), Failure> {
-        self.bytes += bytes.len() as u64;
-        for &byte in bytes {
-            let lost = self.receiver.lost();
-            let Some(result) = self.receiver.push(byte) else {
-                continue;
-            };
-            let is_within_frame = mem::take(&mut self.is_within_frame);
-            match result {
-                Err(_) if is_within_frame => self.excused = 1,
-                Err(damage) => {
-                    self.damaged(damage);
-                    if self.told.elapsed() >= MESSAGE_INTERVAL {
-                        self.tell_damage();
-                    }
-                }
-                Ok(report) => {
-                    self.tell_damage();
-                    self.lost += self.receiver.lost() - lost;
-                    if self
-                        .lost_told
-                        .is_none_or(|told| told.elapsed() >= MESSAGE_INTERVAL)
-                    {
-                        self.tell_lost();
-                    }
-                    self.show(report)?;
-                }
-            }
-        }
-        Ok(())
-    }
-
-    fn show(&mut self, report: Report) -> Result<(), Failure> {
-        match report {
-            Report::Estimate(estimate) => {
-                self.estimates += 1;
-                self.rows.print(&self.name, &estimate, None)?;
-                self.rows.flush()?;
-            }
-            // Other formats have rows for estimates alone.
-            Report::Methods(methods) => {
-                self.rows.under(&describe::methods(&methods))?;
-                self.rows.flush()?;
-            }
-            Report::Hello(hello) => tell(format_args!("device: {}", describe::hello(&hello))),
-            Report::State(state) => tell(format_args!("state: {state}")),
-            Report::Counters(counters) => {
-                tell(format_args!("counters: {}", describe::counters(&counters)))
-            }
-            Report::Acknowledgement(answer) if answer.id == GREETING => {}
-            Report::Acknowledgement(answer) => match answer.result {
-                Ok(()) => tell(format_args!("command {}: done", answer.id)),
-                Err(error) => tell(format_args!("command {}: refused: {error}", answer.id)),
-            },
-            _ => tell(format_args!(
-                "report: of an unknown kind; use firmware and command of the same release"
-            )),
-        }
-        Ok(())
-    }
-
-    fn damaged(&mut self, damage: Damage) {
-        let before = self.damage.map_or(0, |(count, _)| count);
-        self.damage = Some((before + 1, damage));
-    }
-
-    fn tell_damage(&mut self) {
-        match self.damage.take() {
-            None => return,
-            Some((1, damage)) => tell(format_args!("damaged: {damage}")),
-            Some((count, damage)) => {
-                tell(format_args!("damaged: {count} times, the last: {damage}"))
-            }
-        }
-        self.told = Instant::now();
-    }
-
-    fn tell_lost(&mut self) {
-        let lost = mem::take(&mut self.lost);
-        if lost > 0 {
-            tell(format_args!("lost: {lost} before the next report"));
-            self.lost_told = Some(Instant::now());
-        }
-    }
-
-    /// Ends the bytes: an unfinished frame is damaged.
-    fn finish(&mut self) {
-        if let Some(damage) = self.receiver.finish() {
-            self.damaged(damage);
-        }
-    }
-
-    /// Reports what is not yet reported, and the totals.
-    fn end(&mut self, time: Duration) {
-        if self.lost > 0 {
-            tell(format_args!("lost: {} more", self.lost));
-        }
-        self.tell_damage();
-        let reports = self.receiver.reports();
-        tell(format_args!(
-            "{}: {} estimates and {} other reports; {} lost, {} damaged; {} bytes in {:.1} s",
-            self.name,
-            self.estimates,
-            reports - self.estimates,
-            self.receiver.lost(),
-            self.receiver.damaged() - self.excused,
-            self.bytes,
-            time.as_secs_f64()
-        ));
     }
 }

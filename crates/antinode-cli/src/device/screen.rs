@@ -14,7 +14,7 @@ use crate::tell::tell;
 /// The id of the Get that greets a device.
 pub const GREETING: u16 = 0;
 
-/// Shortest time between messages about damage, which is all that comes at a wrong baud rate, and about reports lost on a slow line.
+/// Shortest time between messages about damage, of which a noisy line has much, and about reports lost on a slow line.
 const MESSAGE_INTERVAL: Duration = Duration::from_secs(1);
 
 /// The output for the user: rows on standard output, all else on standard error.
@@ -33,7 +33,7 @@ pub struct Screen<W: Write> {
     /// Damage that is not yet reported: how often, and the last.
     damage: Option<(u64, Damage)>,
     /// When damage was last reported.
-    told: Instant,
+    damage_told: Option<Instant>,
     /// The number of lost reports that are not yet reported.
     lost: u64,
     /// When lost reports were last reported.
@@ -52,7 +52,7 @@ impl<W: Write> Screen<W> {
             is_within_frame,
             excused: 0,
             damage: None,
-            told: Instant::now(),
+            damage_told: None,
             lost: 0,
             lost_told: None,
         }
@@ -76,19 +76,11 @@ impl<W: Write> Screen<W> {
                 Err(_) if is_within_frame => self.excused = 1,
                 Err(damage) => {
                     self.damaged(damage);
-                    if self.told.elapsed() >= MESSAGE_INTERVAL {
-                        self.tell_damage();
-                    }
+                    self.tell_due();
                 }
                 Ok(report) => {
-                    self.tell_damage();
                     self.lost += self.receiver.lost() - lost;
-                    if self
-                        .lost_told
-                        .is_none_or(|told| told.elapsed() >= MESSAGE_INTERVAL)
-                    {
-                        self.tell_lost();
-                    }
+                    self.tell_due();
                     self.show(report)?;
                 }
             }
@@ -125,6 +117,18 @@ impl<W: Write> Screen<W> {
         Ok(())
     }
 
+    /// Reports damage and losses, unless the last message about them was just before.
+    fn tell_due(&mut self) {
+        let is_due =
+            |told: Option<Instant>| told.is_none_or(|told| told.elapsed() >= MESSAGE_INTERVAL);
+        if is_due(self.damage_told) {
+            self.tell_damage();
+        }
+        if is_due(self.lost_told) {
+            self.tell_lost();
+        }
+    }
+
     fn damaged(&mut self, damage: Damage) {
         let before = self.damage.map_or(0, |(count, _)| count);
         self.damage = Some((before + 1, damage));
@@ -138,7 +142,7 @@ impl<W: Write> Screen<W> {
                 tell(format_args!("damaged: {count} times, the last: {damage}"))
             }
         }
-        self.told = Instant::now();
+        self.damage_told = Some(Instant::now());
     }
 
     fn tell_lost(&mut self) {

@@ -122,14 +122,12 @@ fn rows_are_those_of_identify_but_for_damaged_and_missing_ones() {
              gain ratio 1, skew 0 ns, pick-off angle 0 rad, start angle 0.7853982 rad, frequency 5320 Hz",
             "state: started: brown-out",
             "state: searching for a wave",
-            "damaged: the checksum does not match",
             "lost: 1 before the next report",
-            "damaged: longer than any frame",
             "counters: up 12.3 s, 1230000 sample pairs, 2 ADC overruns",
             "state: fault: overrun",
-            // Within the same second as the one before.
+            // Within the same second as the ones before.
             "lost: 1 more",
-            "damaged: incomplete, or not a frame",
+            "damaged: 3 times, the last: incomplete, or not a frame",
         ];
         assert_eq!(told[..told.len() - 1], expected);
         let summary = format!(
@@ -139,6 +137,25 @@ fn rows_are_those_of_identify_but_for_damaged_and_missing_ones() {
         );
         assert!(told.last().unwrap().starts_with(&summary), "{}", run.err);
     }
+}
+
+#[test]
+fn damage_on_a_noisy_line_is_told_once_a_second_and_counted() {
+    let directory = tempfile::tempdir().unwrap();
+    let mut device = Device::default();
+    device.hello();
+    for i in 0..200 {
+        let mut frame = device.frame(Report::State(State::Searching));
+        if i % 2 == 0 {
+            frame[3] ^= 0x40;
+        }
+        device.wire.extend(frame);
+    }
+    let run = run_with(directory.path(), "monitor -", device.wire);
+    let told = run.err.lines().filter(|line| line.starts_with("damaged: "));
+    // At once and at the end, and each second on a slow computer.
+    assert!(told.count() < 20, "{}", run.err);
+    assert!(run.err.contains("100 lost, 100 damaged; "), "{}", run.err);
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use std::io::{self, BufWriter, Write};
 use std::path::PathBuf;
+use std::sync::mpsc::RecvTimeoutError;
 use std::time::{Duration, Instant};
 
 use antinode_telemetry::{Command, CommandFrame, MAX_FRAME, frame};
@@ -31,7 +32,10 @@ pub struct Monitor {
 }
 
 /// Silence of a port, from its opening on, after which a message says so.
-const SILENCE: Duration = Duration::from_secs(3);
+const FIRST_SILENCE: Duration = Duration::from_secs(3);
+
+/// The same once something has come: a device sends counters each second.
+const SILENCE: Duration = Duration::from_secs(10);
 
 /// Prints what a device reports until its bytes end or the user interrupts.
 pub fn run(options: &Monitor) -> Result<(), Failure> {
@@ -73,8 +77,16 @@ pub fn run(options: &Monitor) -> Result<(), Failure> {
 
 /// Takes input until it ends.
 fn follow(source: &Source, screen: &mut Screen<impl Write>) -> Result<(), Failure> {
-    let first = source.is_port.then(|| first(source)).flatten();
-    for input in first.into_iter().chain(&source.input) {
+    let mut quiet = Quiet::default();
+    loop {
+        let input = if source.is_port {
+            quiet.next(source)
+        } else {
+            source.input.recv().ok()
+        };
+        let Some(input) = input else {
+            break;
+        };
         match input {
             Input::Bytes(bytes) => screen.take(&bytes)?,
             Input::End => {
@@ -97,16 +109,39 @@ fn follow(source: &Source, screen: &mut Screen<impl Write>) -> Result<(), Failur
     Ok(())
 }
 
-/// The first input from a port within [`SILENCE`]; `None`, and a message, if there is none.
-fn first(source: &Source) -> Option<Input> {
-    match source.input.recv_timeout(SILENCE) {
-        Ok(input) => Some(input),
-        Err(_) => {
-            tell(format_args!(
-                "silent: nothing was received from {} yet; check that the device runs, its wiring, and that this is its port",
-                source.name
-            ));
-            None
-        }
+/// How a port is listened to: its silence is told of once, and so is that silence's end.
+#[derive(Default)]
+struct Quiet {
+    /// When the last input came.
+    last: Option<Instant>,
+}
+
+impl Quiet {
+    /// The next input from a port; `None` if none can come any more.
+    fn next(&mut self, source: &Source) -> Option<Input> {
+        let name = &source.name;
+        let patience = self.last.map_or(FIRST_SILENCE, |_| SILENCE);
+        let input = match source.input.recv_timeout(patience) {
+            Err(RecvTimeoutError::Timeout) => {
+                tell(match self.last {
+                    None => format!(
+                        "silent: nothing was received from {name} yet; check that the device runs, its wiring, and that this is its port"
+                    ),
+                    Some(_) => format!(
+                        "silent: nothing was received from {name} for {} s; check that the device still runs, and its wiring",
+                        SILENCE.as_secs()
+                    ),
+                });
+                let input = source.input.recv().ok()?;
+                if let (Some(last), Input::Bytes(_)) = (self.last, &input) {
+                    let silence = last.elapsed().as_secs();
+                    tell(format_args!("silent: no longer, after {silence} s"));
+                }
+                input
+            }
+            input => input.ok()?,
+        };
+        self.last = Some(Instant::now());
+        Some(input)
     }
 }

@@ -129,6 +129,35 @@ fn a_silent_port_is_reported_while_it_is_waited_for() {
     assert!(last.contains(": 1 estimates"), "{last}");
 }
 
+#[test]
+fn a_port_that_falls_silent_is_reported_once_and_when_it_is_heard_again() {
+    let (mut port, path) = pair();
+    let mut child = monitor(&path);
+    while port.read(&mut [0; 64]).is_err() {
+        thread::sleep(Duration::from_millis(2));
+    }
+    let (mut reporter, mut buffer) = (Reporter::new(), [0; MAX_FRAME]);
+    let mut send_one = || {
+        let frame = reporter.frame(&estimate().into(), &mut buffer);
+        port.write_all(frame.unwrap()).unwrap();
+    };
+    send_one();
+    let mut err = BufReader::new(child.stderr.take().unwrap()).lines();
+    let told = err.next().unwrap().unwrap();
+    let expected = format!("silent: nothing was received from {path} for 10 s; check ");
+    assert!(told.starts_with(&expected), "{told}");
+    // Nothing more is told in a silence as long again.
+    thread::sleep(Duration::from_secs(11));
+    send_one();
+    let told = err.next().unwrap().unwrap();
+    assert!(told.starts_with("silent: no longer, after 2"), "{told}");
+    assert_eq!(child.try_wait().unwrap(), None);
+    send("-INT", &child);
+    assert_eq!(child.wait().unwrap().code(), Some(0));
+    let last = err.next().unwrap().unwrap();
+    assert!(last.contains(": 2 estimates"), "{last}");
+}
+
 /// Waits until a command catches SIGTERM, and so SIGINT, too: for a moment after it is caught, a signal that was ignored before is still
 /// lost. Where the system does not tell, waits for a second.
 fn wait_until_interruptible(child: &Child) {

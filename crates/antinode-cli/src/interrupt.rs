@@ -4,13 +4,14 @@ use std::io;
 
 use crate::failure::Failure;
 
-/// Has `handler` called at each Ctrl-C or signal to end; to be installed only once in a process.
-pub fn on_interrupt(handler: impl FnMut() + Send + 'static) -> Result<(), Failure> {
+/// Has `handler` called at each Ctrl-C or signal to end, with true if that is SIGTERM, which nobody sends twice; to be installed only once
+/// in a process.
+pub fn on_interrupt(handler: impl FnMut(bool) + Send + 'static) -> Result<(), Failure> {
     catch(handler).map_err(|error| Failure::Fault(format!("Ctrl-C cannot be caught: {error}")))
 }
 
 #[cfg(unix)]
-fn catch(mut handler: impl FnMut() + Send + 'static) -> Result<(), io::Error> {
+fn catch(mut handler: impl FnMut(bool) + Send + 'static) -> Result<(), io::Error> {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     use signal_hook::iterator::Signals;
 
@@ -20,7 +21,11 @@ fn catch(mut handler: impl FnMut() + Send + 'static) -> Result<(), io::Error> {
     if !is_ignored(SIGHUP) {
         signals.add_signal(SIGHUP)?;
     }
-    std::thread::spawn(move || signals.forever().for_each(|_| handler()));
+    std::thread::spawn(move || {
+        signals
+            .forever()
+            .for_each(|signal| handler(signal == SIGTERM))
+    });
     Ok(())
 }
 
@@ -39,6 +44,6 @@ fn is_ignored(signal: i32) -> bool {
 }
 
 #[cfg(windows)]
-fn catch(handler: impl FnMut() + Send + 'static) -> Result<(), io::Error> {
-    ctrlc::set_handler(handler).map_err(io::Error::other)
+fn catch(mut handler: impl FnMut(bool) + Send + 'static) -> Result<(), io::Error> {
+    ctrlc::set_handler(move || handler(false)).map_err(io::Error::other)
 }

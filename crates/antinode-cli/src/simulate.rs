@@ -100,6 +100,6 @@ fn write(options: &Simulate, gyro: Gyro, truth: &Truth, beside: &Path) -> Result
 fn interrupted() -> Result<Arc<AtomicBool>, Failure> {
     let interrupted = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&interrupted);
-    on_interrupt(move || flag.store(true, Ordering::Relaxed))?;
+    on_interrupt(move |_| flag.store(true, Ordering::Relaxed))?;
     Ok(interrupted)
 }

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
+use std::time::Duration;
 
 use super::port;
 use crate::failure::Failure;
@@ -84,16 +85,24 @@ impl Read for Pipe {
     }
 }
 
-/// Has the first Ctrl-C end the input, after what was read before it, and the next one end the command.
+/// How long SIGTERM leaves for what was read before it.
+const TERMINATION: Duration = Duration::from_millis(500);
+
+/// Has the first Ctrl-C end the input, after what was read before it, and the next one end the command, as SIGTERM does by itself.
 fn end_on_interrupt(sender: SyncSender<Input>) -> Result<(), Failure> {
     let mut is_asked = false;
-    on_interrupt(move || {
+    on_interrupt(move |is_termination| {
         // Where nobody reads the rows any more, printing them waits for ever, and the input's end is never seen.
+        let stop = || process::exit(Failure::Stopped.code().into());
         if mem::replace(&mut is_asked, true) {
-            process::exit(Failure::Stopped.code().into());
+            stop();
         }
         let sender = sender.clone();
         thread::spawn(move || sender.send(Input::Interrupted));
+        if is_termination {
+            thread::sleep(TERMINATION);
+            stop();
+        }
     })
 }
 

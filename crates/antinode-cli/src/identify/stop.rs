@@ -33,7 +33,7 @@ impl Stop {
         let stop = Self::default();
         let asked = stop.clone();
         let (out, residual) = (out.clone(), residual.clone());
-        on_interrupt(move || {
+        on_interrupt(move |_| {
             asked.is_asked.store(true, Ordering::Relaxed);
             thread::sleep(GRACE);
             asked.report(false);

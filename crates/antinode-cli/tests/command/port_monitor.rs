@@ -202,11 +202,11 @@ fn a_monitor_of_a_pipe_that_nobody_writes_into_is_interrupted() {
     assert!(told.contains("no bytes were received"), "{told}");
 }
 
-#[test]
-fn a_monitor_whose_rows_nobody_reads_ends_at_the_second_interrupt() {
+/// A monitor that waits until somebody reads its rows, and what keeps it so.
+fn unread() -> (Child, impl Sized) {
     let device = Device::start(false);
     let (reader, mut writer) = io::pipe().unwrap();
-    let mut child = monitor_to(&device.path, writer.try_clone().unwrap());
+    let child = monitor_to(&device.path, writer.try_clone().unwrap());
     assert_eq!(
         device.asked.recv_timeout(Duration::from_secs(10)),
         Ok(Asked::Get)
@@ -228,10 +228,41 @@ fn a_monitor_whose_rows_nobody_reads_ends_at_the_second_interrupt() {
     while filled.recv_timeout(Duration::from_secs(1)).is_ok() {}
     device.reports.send(estimate().into()).unwrap();
     thread::sleep(Duration::from_secs(2));
+    (child, (device, lines, filled))
+}
+
+#[test]
+fn a_monitor_whose_rows_nobody_reads_ends_at_the_second_interrupt() {
+    let (mut child, _unread) = unread();
     send("-INT", &child);
-    thread::sleep(Duration::from_millis(200));
+    thread::sleep(Duration::from_millis(1000));
     assert_eq!(child.try_wait().unwrap(), None);
     send("-INT", &child);
     assert!(ends(&mut child));
     assert_eq!(child.wait().unwrap().code(), Some(130));
+}
+
+#[test]
+fn a_monitor_whose_rows_nobody_reads_is_terminated() {
+    let (mut child, _unread) = unread();
+    send("-TERM", &child);
+    assert!(ends(&mut child));
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+}
+
+#[test]
+fn a_monitor_that_is_terminated_tells_its_totals() {
+    let device = Device::start(false);
+    let mut child = monitor(&device.path);
+    assert_eq!(
+        device.asked.recv_timeout(Duration::from_secs(10)),
+        Ok(Asked::Get)
+    );
+    device.reports.send(estimate().into()).unwrap();
+    let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
+    assert!(lines.nth(1).is_some());
+    send("-TERM", &child);
+    assert_eq!(child.wait().unwrap().code(), Some(0));
+    let told = told(&mut child);
+    assert!(told.contains(": 1 estimates and "), "{told}");
 }

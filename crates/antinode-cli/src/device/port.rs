@@ -40,7 +40,12 @@ fn is_port_of_windows(name: &str) -> bool {
 /// Opens a port: 8 data bits, no parity, 1 stop bit, for this program alone.
 pub fn open(path: &Path, baud: u32) -> Result<Box<dyn SerialPort>, Failure> {
     let name = path.display();
-    let error = match serialport::new(path.to_string_lossy(), baud)
+    // The library takes text alone: a link of a name that is none may lead to one that is.
+    let target = match path.to_str() {
+        None => path.canonicalize().unwrap_or_default(),
+        Some(_) => path.to_owned(),
+    };
+    let error = match serialport::new(target.to_string_lossy(), baud)
         .timeout(READ_TIMEOUT)
         .open()
     {
@@ -55,6 +60,9 @@ pub fn open(path: &Path, baud: u32) -> Result<Box<dyn SerialPort>, Failure> {
         }
         _ if cfg!(unix) && !path.exists() => format!("there is no such port; {}", ports()),
         _ if cfg!(unix) && !is_port(path) => format!("this is not a serial port; {}", ports()),
+        _ if target.to_str().is_none() => {
+            "its name is not UTF-8; give a link to it that has another name".to_owned()
+        }
         ErrorKind::NoDevice => format!(
             "it does not open: {told}; close any other program that uses it; {}",
             ports()

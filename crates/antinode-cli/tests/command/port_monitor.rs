@@ -1,8 +1,11 @@
 //! `antinode monitor` on a port or a pipe that stays open.
 #![cfg(unix)]
 
+use std::ffi::OsStr;
 use std::fs;
 use std::io::{self, BufRead, BufReader, Read, Write};
+use std::os::unix::ffi::OsStrExt;
+use std::os::unix::fs::symlink;
 use std::process::{Child, Command, Stdio};
 use std::sync::mpsc;
 use std::thread;
@@ -108,6 +111,23 @@ fn frames_that_a_monitor_begins_or_ends_within_are_not_damaged() {
     let told = told(&mut child);
     let summary = format!("{path}: 1 estimates and 0 other reports; 0 lost, 0 damaged; ");
     assert!(told.starts_with(&summary), "{told}");
+}
+
+#[test]
+fn a_port_whose_name_is_not_utf_8_is_opened() {
+    let device = Device::start(false);
+    let directory = tempfile::tempdir().unwrap();
+    let link = directory.path().join(OsStr::from_bytes(b"port\xff"));
+    // Where names must be UTF-8, as on macOS, there is no such port.
+    if symlink(&device.path, &link).is_err() {
+        return;
+    }
+    let get = Command::new(env!("CARGO_BIN_EXE_antinode"))
+        .args([OsStr::new("command"), link.as_os_str(), OsStr::new("get")])
+        .output()
+        .unwrap();
+    let out = String::from_utf8(get.stdout).unwrap();
+    assert!(out.starts_with("firmware 1.2.3"), "{out}");
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! A gyro controller at the other end of a serial line.
 
 pub mod command;
+mod course;
 mod describe;
 mod line;
 pub mod monitor;

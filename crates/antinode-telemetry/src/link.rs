@@ -109,7 +109,8 @@ impl Receiver {
 
     /// Count of missing report numbers: reports damaged on the line, and those that the device had no room to send. Numbers are modulo
     /// 65 536, so that multiples of 65 536 missing in a row, and up to 256 less, are not counted; nor are those just before a restart of the
-    /// device. A report that comes again within 256 is none.
+    /// device, unless both of its first reports are missing too: then the numbers seem to go on. A report that comes again within 256 is
+    /// none.
     pub fn lost(&self) -> u64 {
         self.lost
     }

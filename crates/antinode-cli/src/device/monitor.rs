@@ -54,7 +54,7 @@ pub fn run(options: &Monitor) -> Result<(), Failure> {
     let result = follow(&source, &mut screen);
     screen.end(begin.elapsed());
     result?;
-    if screen.reports() > 0 {
+    if screen.reports > 0 {
         return Ok(());
     }
     let Screen { name, bytes, .. } = screen;

@@ -4,8 +4,9 @@ use std::io::Write;
 use std::mem;
 use std::time::{Duration, Instant};
 
-use antinode_telemetry::{Damage, Receiver, Report};
+use antinode_telemetry::{Damage, Decoder, Report, ReportFrame};
 
+use super::course::{Course, Event};
 use super::describe;
 use crate::failure::Failure;
 use crate::rows::Rows;
@@ -22,20 +23,26 @@ pub struct Screen<W: Write> {
     rows: Rows<W>,
     /// What the source is called.
     pub name: String,
-    receiver: Receiver,
+    decoder: Decoder<ReportFrame>,
+    course: Course,
     estimates: u64,
+    /// Intact reports.
+    pub reports: u64,
     /// Bytes taken.
     pub bytes: u64,
     /// True until the first frame ends, if the bytes may begin in the middle of one.
     is_within_frame: bool,
-    /// Damage that is not counted: the frame in whose middle the bytes began.
-    excused: u64,
+    /// Damaged frames, and noise, but for the frame in whose middle the bytes began.
+    damaged: u64,
     /// Damage that is not yet reported: how often, and the last.
     damage: Option<(u64, Damage)>,
     /// When damage was last reported.
     damage_told: Option<Instant>,
-    /// The number of lost reports that are not yet reported.
+    /// Reports lost, and how many of these are not yet reported.
     lost: u64,
+    untold: u64,
+    /// True if more may be lost: a hole was too long to count.
+    is_more: bool,
     /// When lost reports were last reported.
     lost_told: Option<Instant>,
 }
@@ -46,46 +53,74 @@ impl<W: Write> Screen<W> {
         Self {
             rows,
             name: name.to_owned(),
-            receiver: Receiver::new(),
+            decoder: Decoder::new(),
+            course: Course::default(),
             estimates: 0,
+            reports: 0,
             bytes: 0,
             is_within_frame,
-            excused: 0,
+            damaged: 0,
             damage: None,
             damage_told: None,
             lost: 0,
+            untold: 0,
+            is_more: false,
             lost_told: None,
         }
-    }
-
-    /// Count of intact reports.
-    pub fn reports(&self) -> u64 {
-        self.receiver.reports()
     }
 
     /// Shows what some bytes complete.
     pub fn take(&mut self, bytes: &[u8]) -> Result<(), Failure> {
         self.bytes += bytes.len() as u64;
         for &byte in bytes {
-            let lost = self.receiver.lost();
-            let Some(result) = self.receiver.push(byte) else {
+            let Some(result) = self.decoder.push(byte) else {
                 continue;
             };
             let is_within_frame = mem::take(&mut self.is_within_frame);
             match result {
-                Err(_) if is_within_frame => self.excused = 1,
+                Err(_) if is_within_frame => {}
                 Err(damage) => {
                     self.damaged(damage);
                     self.tell_due();
                 }
-                Ok(report) => {
-                    self.lost += self.receiver.lost() - lost;
+                Ok(frame) => {
+                    self.reports += 1;
+                    let event = self.course.take(&frame);
+                    self.follow(event);
                     self.tell_due();
-                    self.show(report)?;
+                    self.show(frame.report)?;
                 }
             }
         }
         Ok(())
+    }
+
+    /// Counts and tells what the course shows.
+    fn follow(&mut self, event: Option<Event>) {
+        match event {
+            None => {}
+            Some(Event::Lost(count)) => {
+                self.lost += count;
+                self.untold += count;
+            }
+            Some(Event::Uncounted(count, Some(seconds))) => {
+                self.lost += count;
+                self.is_more = true;
+                tell(format_args!(
+                    "lost: {count} in {seconds:.0} s, or more by a multiple of 65536, as the reports' numbers begin anew there"
+                ));
+            }
+            Some(Event::Uncounted(count, None)) => {
+                self.is_more = true;
+                tell(format_args!(
+                    "lost: {count} by the reports' numbers, but none of them tells the time: the device may have restarted"
+                ));
+            }
+            Some(Event::Restarted) => tell(
+                "restarted: by its reports' numbers and times the device has begun anew, but its start was not received; reports lost about it are \
+                 not counted",
+            ),
+        }
     }
 
     fn show(&mut self, report: Report) -> Result<(), Failure> {
@@ -130,6 +165,7 @@ impl<W: Write> Screen<W> {
     }
 
     fn damaged(&mut self, damage: Damage) {
+        self.damaged += 1;
         let before = self.damage.map_or(0, |(count, _)| count);
         self.damage = Some((before + 1, damage));
     }
@@ -146,7 +182,7 @@ impl<W: Write> Screen<W> {
     }
 
     fn tell_lost(&mut self) {
-        let lost = mem::take(&mut self.lost);
+        let lost = mem::take(&mut self.untold);
         if lost > 0 {
             tell(format_args!("lost: {lost} before the next report"));
             self.lost_told = Some(Instant::now());
@@ -155,25 +191,28 @@ impl<W: Write> Screen<W> {
 
     /// Ends the bytes: an unfinished frame is damaged.
     pub fn finish(&mut self) {
-        if let Some(damage) = self.receiver.finish() {
+        if let Some(damage) = self.decoder.finish() {
             self.damaged(damage);
         }
     }
 
     /// Reports what is not yet reported, and the totals.
     pub fn end(&mut self, time: Duration) {
-        if self.lost > 0 {
-            tell(format_args!("lost: {} more", self.lost));
+        let event = self.course.finish();
+        self.follow(event);
+        if self.untold > 0 {
+            let more = self.lost_told.map_or("", |_| " more");
+            tell(format_args!("lost: {}{more}", self.untold));
         }
         self.tell_damage();
-        let reports = self.receiver.reports();
         tell(format_args!(
-            "{}: {} estimates and {} other reports; {} lost, {} damaged; {} bytes in {:.1} s",
+            "{}: {} estimates and {} other reports; {}{} lost, {} damaged; {} bytes in {:.1} s",
             self.name,
             self.estimates,
-            reports - self.estimates,
-            self.receiver.lost(),
-            self.receiver.damaged() - self.excused,
+            self.reports - self.estimates,
+            if self.is_more { "at least " } else { "" },
+            self.lost,
+            self.damaged,
             self.bytes,
             time.as_secs_f64()
         ));

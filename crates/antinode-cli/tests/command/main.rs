@@ -16,6 +16,7 @@ mod memory;
 mod methods;
 mod mistaken;
 mod monitor;
+mod monitor_course;
 mod not_finite;
 mod plot;
 mod plot_axes;

@@ -19,6 +19,8 @@ const UPTIME: usize = 0;
 /// What a report shows of those before it.
 #[derive(Debug, PartialEq)]
 pub enum Event {
+    /// The device has started.
+    Started,
     /// So many are missing.
     Lost(u64),
     /// So many are missing, or more by a multiple of 65 536, in this time, s. Without a time the device may have restarted.
@@ -47,16 +49,18 @@ impl Course {
     pub fn take(&mut self, frame: &ReportFrame) -> Option<Event> {
         let ReportFrame { number, report } = frame;
         let is_start = match report {
-            Report::Hello(_) => *number == 0,
+            Report::Hello(_) => *number == 0 && self.next != Some(0),
             Report::State(State::Started(_)) => self.next != Some(*number),
             _ => false,
         };
         if is_start {
-            // What was missing just before is not known.
+            // What was missing just before is not known, and what is missing since is told later.
             *self = Self {
-                next: self.next.map(|_| 0),
+                next: Some(number.wrapping_add(1)),
+                missing: self.next.map_or(0, |_| u64::from(*number)),
                 ..Self::default()
             };
+            return Some(Event::Started);
         }
         let missing = self.next.map_or(0, |next| number.wrapping_sub(next));
         let timed = match report {
@@ -254,8 +258,9 @@ mod tests {
             (1, started()),
             (2, counters(0.1)),
         ];
-        assert_eq!(events(with.clone()), []);
+        assert_eq!(events(with.clone()), [Event::Started]);
         let [before, hole, _, started, after] = with;
-        assert_eq!(events([before, hole, started, after]), [Event::Lost(1)]);
+        let without = events([before, hole, started, after]);
+        assert_eq!(without, [Event::Started, Event::Lost(1)]);
     }
 }

@@ -8,44 +8,72 @@ use crate::methods::table::DISAGREE;
 
 /// The device's version and configuration in one line.
 pub fn hello(hello: &Hello) -> String {
+    let shown = parts(hello).into_iter().filter(|(_, is_shown)| *is_shown);
+    let shown: Vec<_> = shown.map(|(part, _)| part).collect();
+    shown.join(", ")
+}
+
+/// What differs in a device's version and configuration, as it is and as it was; `None` if nothing does.
+pub fn differences(now: &Hello, before: &Hello) -> Option<String> {
+    let pairs = parts(now).into_iter().zip(parts(before));
+    let differing = pairs.filter(|(now, before)| now.0 != before.0);
+    let (now, before): (Vec<_>, Vec<_>) = differing.map(|(now, before)| (now.0, before.0)).unzip();
+    (!now.is_empty()).then(|| format!("{}; before: {}", now.join(", "), before.join(", ")))
+}
+
+/// The parts of a device's version and configuration, each with false if it is the usual one, which goes without saying.
+fn parts(hello: &Hello) -> [(String, bool); 18] {
     let Configuration {
         settings: s,
         front_end,
         methods,
     } = &hello.configuration;
     let c = &s.calibration;
-    let hop = match s.hop {
-        None => "no hop".to_owned(),
-        Some(blocks) => format!("hop {}", counted(blocks.into(), "block")),
+    let always = |part: String| (part, true);
+    let known = |part: Option<String>, otherwise: &str| {
+        let is_shown = part.is_some();
+        (part.unwrap_or_else(|| otherwise.to_owned()), is_shown)
     };
-    let level = |name, value: Option<f32>| value.map_or(String::new(), |x| format!(", {name} {x}"));
-    format!(
-        "firmware {}, protocol {}, {}, {} Hz, window {} periods, {hop}, methods {}, gain ratio {}, skew {} ns, \
-         pick-off angle {} rad, start angle {} rad{}{}{}{}{}{}{}",
-        hello.firmware,
-        hello.protocol,
-        source(*front_end),
-        s.sample_rate,
-        s.periods,
-        if *methods { "on" } else { "off" },
-        c.gain_ratio,
-        nanoseconds(c.skew),
-        c.pick_off_angle,
-        s.start_angle,
-        s.rails.map_or(String::new(), |[low, high]| format!(
-            ", rails {low} and {high}"
-        )),
-        level("resolution", s.resolution),
-        s.frequency
-            .map_or(String::new(), |hertz| format!(", frequency {hertz} Hz")),
-        match s.detection {
-            Detection::MeanReturn => ", detector mean-return",
-            _ => "",
-        },
-        if s.watch { "" } else { ", samples not watched" },
-        if s.hum { ", hum" } else { "" },
-        if s.coloured { ", coloured noise" } else { "" },
-    )
+    let switch = |is_on: bool, on: &str, off: &str, shown: bool| {
+        (if is_on { on } else { off }.to_owned(), is_on == shown)
+    };
+    [
+        always(format!("firmware {}", hello.firmware)),
+        always(format!("protocol {}", hello.protocol)),
+        always(source(*front_end).to_owned()),
+        always(format!("{} Hz", s.sample_rate)),
+        always(format!("window {} periods", s.periods)),
+        always(match s.hop {
+            None => "no hop".to_owned(),
+            Some(blocks) => format!("hop {}", counted(blocks.into(), "block")),
+        }),
+        always(format!("methods {}", if *methods { "on" } else { "off" })),
+        always(format!("gain ratio {}", c.gain_ratio)),
+        always(format!("skew {} ns", nanoseconds(c.skew))),
+        always(format!("pick-off angle {} rad", c.pick_off_angle)),
+        always(format!("start angle {} rad", s.start_angle)),
+        known(
+            s.rails.map(|[low, high]| format!("rails {low} and {high}")),
+            "no rails",
+        ),
+        known(
+            s.resolution.map(|x| format!("resolution {x}")),
+            "no resolution",
+        ),
+        known(
+            s.frequency.map(|hertz| format!("frequency {hertz} Hz")),
+            "frequency searched for",
+        ),
+        switch(
+            s.detection == Detection::MeanReturn,
+            "detector mean-return",
+            "usual detector",
+            true,
+        ),
+        switch(s.watch, "samples watched", "samples not watched", false),
+        switch(s.hum, "hum", "no hum", true),
+        switch(s.coloured, "coloured noise", "white noise", true),
+    ]
 }
 
 /// A skew in ns, rounded to the digits that single precision keeps of any number, so that it reads as it was typed.

@@ -4,7 +4,7 @@ use std::io::Write;
 use std::mem;
 use std::time::{Duration, Instant};
 
-use antinode_telemetry::{Damage, Decoder, Report, ReportFrame};
+use antinode_telemetry::{Damage, Decoder, Hello, Report, ReportFrame, State};
 
 use super::course::{Course, Event};
 use super::describe;
@@ -25,6 +25,9 @@ pub struct Screen<W: Write> {
     pub name: String,
     decoder: Decoder<ReportFrame>,
     course: Course,
+    /// The last version and configuration, and whether the device has restarted since.
+    hello: Option<Hello>,
+    is_restarted: bool,
     estimates: u64,
     /// Intact reports.
     pub reports: u64,
@@ -55,6 +58,8 @@ impl<W: Write> Screen<W> {
             name: name.to_owned(),
             decoder: Decoder::new(),
             course: Course::default(),
+            hello: None,
+            is_restarted: false,
             estimates: 0,
             reports: 0,
             bytes: 0,
@@ -99,6 +104,7 @@ impl<W: Write> Screen<W> {
     fn follow(&mut self, event: Option<Event>) {
         match event {
             None => {}
+            Some(Event::Started) => self.is_restarted = true,
             Some(Event::Lost(count)) => {
                 self.lost += count;
                 self.untold += count;
@@ -116,10 +122,14 @@ impl<W: Write> Screen<W> {
                     "lost: {count} by the reports' numbers, but none of them tells the time: the device may have restarted"
                 ));
             }
-            Some(Event::Restarted) => tell(
-                "restarted: by its reports' numbers and times the device has begun anew, but its start was not received; reports lost about it are \
+            Some(Event::Restarted) => {
+                self.is_restarted = true;
+                tell(
+                    "restarted: by its reports' numbers and times the device has begun anew, but its start was not received; reports lost about it are \
                  not counted",
-            ),
+                );
+                self.tell_unknown();
+            }
         }
     }
 
@@ -135,8 +145,16 @@ impl<W: Write> Screen<W> {
                 self.rows.under(&describe::methods(&methods))?;
                 self.rows.flush()?;
             }
-            Report::Hello(hello) => tell(format_args!("device: {}", describe::hello(&hello))),
-            Report::State(state) => tell(format_args!("state: {state}")),
+            Report::Hello(hello) => {
+                tell(format_args!("device: {}", describe::hello(&hello)));
+                self.compare(hello);
+            }
+            Report::State(state) => {
+                tell(format_args!("state: {state}"));
+                if let State::Started(_) = state {
+                    self.tell_unknown();
+                }
+            }
             Report::Counters(counters) => {
                 tell(format_args!("counters: {}", describe::counters(&counters)))
             }
@@ -161,6 +179,28 @@ impl<W: Write> Screen<W> {
         }
         if is_due(self.lost_told) {
             self.tell_lost();
+        }
+    }
+
+    /// Warns of settings that are not those before a restart.
+    fn compare(&mut self, hello: Hello) {
+        let is_restarted = mem::take(&mut self.is_restarted);
+        if let Some(before) = self.hello.replace(hello.clone()).filter(|_| is_restarted)
+            && let Some(differences) = describe::differences(&hello, &before)
+        {
+            tell(format_args!(
+                "warning: since its restart the device has other settings: {differences}; commands last until a reset only: send them again, \
+                 and do not use rows before and after it together"
+            ));
+        }
+    }
+
+    /// Warns of a restart behind which no settings came.
+    fn tell_unknown(&self) {
+        if self.is_restarted && self.hello.is_some() {
+            tell(
+                "warning: the settings since the restart of the device were not received: what commands had changed before is gone",
+            );
         }
     }
 

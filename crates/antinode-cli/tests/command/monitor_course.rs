@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use crate::common::run_with;
+use antinode::{Calibration, Settings};
 use antinode_telemetry::*;
 
 /// The bytes of a device between its starts: reports, or how many are missing.
@@ -29,6 +30,7 @@ fn told(sessions: &[&[Result<Report, u32>]]) -> Vec<String> {
     told.lines().map(str::to_owned).collect()
 }
 
+const STARTED: Result<Report, u32> = Ok(Report::State(State::Started(Cause::Watchdog)));
 const SEARCHING: Result<Report, u32> = Ok(Report::State(State::Searching));
 
 fn counters(seconds: u64) -> Result<Report, u32> {
@@ -79,5 +81,66 @@ fn a_restart_whose_start_is_not_received_is_told_and_costs_no_reports() {
             "counters: up 1.0 s, 0 sample pairs",
             "standard input: 0 estimates and 3 other reports; 0 lost, 0 damaged",
         ]
+    );
+}
+
+fn hello(settings: Settings) -> Result<Report, u32> {
+    let configuration = Configuration::new(settings, FrontEnd::DualAdc);
+    Ok(Report::Hello(Hello::new("0.1.0", configuration)))
+}
+
+/// Warnings of a monitor.
+fn warnings(sessions: &[&[Result<Report, u32>]]) -> Vec<String> {
+    let mut told = told(sessions);
+    told.retain(|line| line.starts_with("warning: "));
+    told
+}
+
+#[test]
+fn settings_that_a_restart_changes_are_warned_of() {
+    let built = hello(Settings::new(1e5));
+    let commanded = hello(Settings {
+        periods: 20,
+        hop: Some(5),
+        frequency: Some(5332.0),
+        hum: true,
+        coloured: true,
+        calibration: Calibration {
+            gain_ratio: 1.02,
+            skew: 15e-9,
+            ..Calibration::IDEAL
+        },
+        ..Settings::new(1e5)
+    });
+    let told = warnings(&[
+        &[built.clone(), STARTED, commanded.clone(), SEARCHING],
+        &[built.clone(), STARTED, SEARCHING],
+        // Nothing differs any more.
+        &[built.clone(), STARTED, SEARCHING],
+    ]);
+    assert_eq!(
+        told,
+        [
+            "warning: since its restart the device has other settings: window 10 periods, no hop, gain ratio 1, skew 0 ns, frequency \
+             searched for, no hum, white noise; before: window 20 periods, hop 5 blocks, gain ratio 1.02, skew 15 ns, frequency 5332 Hz, \
+             hum, coloured noise; commands last until a reset only: send them again, and do not use rows before and after it together"
+        ]
+    );
+    // The Hello of the start is damaged, and with it the cause of the start; a later one tells.
+    for missing in [&[Err(1), STARTED][..], &[Err(2), SEARCHING]] {
+        let after = [missing, &[counters(1), built.clone(), SEARCHING]].concat();
+        let told = warnings(&[&[commanded.clone(), Err(40_000), counters(80)], &after]);
+        assert_eq!(told.len(), 2, "{told:?}");
+        assert!(told[0].contains("settings since the restart of the device were not received"));
+        assert!(told[1].contains("has other settings: window 10 periods, no hop"));
+    }
+    // Commands that change settings are no restart, nor is it one to begin with.
+    assert_eq!(
+        warnings(&[&[built.clone(), commanded.clone(), built]]),
+        [""; 0]
+    );
+    assert_eq!(
+        warnings(&[&[commanded.clone(), STARTED], &[commanded, STARTED]]),
+        [""; 0]
     );
 }

@@ -249,9 +249,9 @@ typedef struct antinode_settings_t {
 
 // The wave over one window, at the window's middle. Each `_std` is one standard deviation.
 typedef struct antinode_estimate_t {
-    // Index in the stream of the window's first sample pair.
+    // Index in the stream of the window's first sample pair: pairs pushed and pairs skipped before it, since `_init` or `_reset`.
     uint64_t start;
-    // Time of the window's middle, s from the stream's first sample.
+    // Time of the window's middle, s from the stream's first sample, pushed or skipped.
     double time_s;
     // Pattern angle theta, rad: it begins near the start angle, and is continued from window to window.
     double angle_rad;
@@ -357,8 +357,9 @@ antinode_status_t antinode_fixed_push_block_packed(struct antinode_fixed_t *stat
                                                    size_t count);
 
 // Interrupt side. Reports that `count` sample pairs were lost before the next one: the window that they would have been part of is
-// dropped, and time advances by them. After a gap so long that the turn of the pattern meanwhile is known to no better than 0.13 rad (one
-// standard deviation), the angle is known modulo pi/2 only, and ANTINODE_FLAG_REACQUIRED says so.
+// dropped, and `start` and `time_s` of later windows count them, even if no pair was pushed yet. After a gap so long that the turn of the
+// pattern meanwhile is known to no better than 0.13 rad (one standard deviation), the angle is known modulo pi/2 only, and
+// ANTINODE_FLAG_REACQUIRED says so.
 antinode_status_t antinode_fixed_skip(struct antinode_fixed_t *state,
                                       uint32_t count);
 
@@ -422,8 +423,9 @@ antinode_status_t antinode_float_push_block_packed(struct antinode_float_t *stat
                                                    size_t count);
 
 // Interrupt side. Reports that `count` sample pairs were lost before the next one: the window that they would have been part of is
-// dropped, and time advances by them. After a gap so long that the turn of the pattern meanwhile is known to no better than 0.13 rad (one
-// standard deviation), the angle is known modulo pi/2 only, and ANTINODE_FLAG_REACQUIRED says so.
+// dropped, and `start` and `time_s` of later windows count them, even if no pair was pushed yet. After a gap so long that the turn of the
+// pattern meanwhile is known to no better than 0.13 rad (one standard deviation), the angle is known modulo pi/2 only, and
+// ANTINODE_FLAG_REACQUIRED says so.
 antinode_status_t antinode_float_skip(struct antinode_float_t *state,
                                       uint32_t count);
 

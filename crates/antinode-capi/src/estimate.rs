@@ -55,9 +55,9 @@ const _: () = {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct Estimate {
-    /// Index in the stream of the window's first sample pair.
+    /// Index in the stream of the window's first sample pair: pairs pushed and pairs skipped before it, since `_init` or `_reset`.
     pub start: u64,
-    /// Time of the window's middle, s from the stream's first sample.
+    /// Time of the window's middle, s from the stream's first sample, pushed or skipped.
     pub time_s: f64,
     /// Pattern angle θ, rad: it begins near the start angle, and is continued from window to window.
     pub angle_rad: f64,

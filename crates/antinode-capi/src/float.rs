@@ -77,8 +77,9 @@ pub unsafe extern "C" fn antinode_float_push_block_packed(
 }
 
 /// Interrupt side. Reports that `count` sample pairs were lost before the next one: the window that they would have been part of is
-/// dropped, and time advances by them. After a gap so long that the turn of the pattern meanwhile is known to no better than 0.13 rad (one
-/// standard deviation), the angle is known modulo π/2 only, and ANTINODE_FLAG_REACQUIRED says so.
+/// dropped, and `start` and `time_s` of later windows count them, even if no pair was pushed yet. After a gap so long that the turn of the
+/// pattern meanwhile is known to no better than 0.13 rad (one standard deviation), the angle is known modulo π/2 only, and
+/// ANTINODE_FLAG_REACQUIRED says so.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn antinode_float_skip(state: *mut Float, count: u32) -> Status {
     boundary::skip::<f32, _>(state, count)

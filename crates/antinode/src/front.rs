@@ -226,8 +226,8 @@ impl<S: Sample, const N: usize> Front<S, N> {
         self.index
     }
 
-    /// Tells that `count` sample pairs were lost before the next one: the block that they would have been part of is dropped. An index that
-    /// this takes to 2⁶² begins again at 0: no stream is that long.
+    /// Tells that `count` sample pairs were lost before the next one: the block that they would have been part of is dropped. Indices, and
+    /// so times, count them, those before the first pair too. An index that this takes to 2⁶² begins again at 0: no stream is that long.
     pub fn skip(&mut self, count: u64) {
         if count == 0 {
             return;

@@ -364,7 +364,10 @@ antinode_status_t antinode_fixed_skip(struct antinode_fixed_t *state,
                                       uint32_t count);
 
 // Thread side. Solves finished blocks up to the next estimate. Returns ANTINODE_ESTIMATE if one was written: there may then be more.
-// Returns ANTINODE_OK if no block is left: `estimate` is then unchanged. A lost wave is searched for anew without a call.
+// Returns ANTINODE_OK if no block is left, or if ANTINODE_QUEUE_BLOCKS blocks gave no estimate: `estimate` is then unchanged. A lost wave
+// is searched for anew without a call. Estimates come in order of time: a full queue keeps its oldest blocks, so the first estimates after
+// a stall of this side are as old as the stall, and no flag shows it. Compare `start` + `samples` with a count of the pairs pushed and
+// skipped.
 antinode_status_t antinode_fixed_solve(struct antinode_fixed_t *state,
                                        struct antinode_estimate_t *estimate);
 
@@ -430,7 +433,10 @@ antinode_status_t antinode_float_skip(struct antinode_float_t *state,
                                       uint32_t count);
 
 // Thread side. Solves finished blocks up to the next estimate. Returns ANTINODE_ESTIMATE if one was written: there may then be more.
-// Returns ANTINODE_OK if no block is left: `estimate` is then unchanged. A lost wave is searched for anew without a call.
+// Returns ANTINODE_OK if no block is left, or if ANTINODE_QUEUE_BLOCKS blocks gave no estimate: `estimate` is then unchanged. A lost wave
+// is searched for anew without a call. Estimates come in order of time: a full queue keeps its oldest blocks, so the first estimates after
+// a stall of this side are as old as the stall, and no flag shows it. Compare `start` + `samples` with a count of the pairs pushed and
+// skipped.
 antinode_status_t antinode_float_solve(struct antinode_float_t *state,
                                        struct antinode_estimate_t *estimate);
 

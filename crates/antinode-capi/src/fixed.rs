@@ -87,7 +87,10 @@ pub unsafe extern "C" fn antinode_fixed_skip(state: *mut Fixed, count: u32) -> S
 }
 
 /// Thread side. Solves finished blocks up to the next estimate. Returns ANTINODE_ESTIMATE if one was written: there may then be more.
-/// Returns ANTINODE_OK if no block is left: `estimate` is then unchanged. A lost wave is searched for anew without a call.
+/// Returns ANTINODE_OK if no block is left, or if ANTINODE_QUEUE_BLOCKS blocks gave no estimate: `estimate` is then unchanged. A lost wave
+/// is searched for anew without a call. Estimates come in order of time: a full queue keeps its oldest blocks, so the first estimates after
+/// a stall of this side are as old as the stall, and no flag shows it. Compare `start` + `samples` with a count of the pairs pushed and
+/// skipped.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn antinode_fixed_solve(
     state: *mut Fixed,

@@ -9,6 +9,7 @@ use core::sync::atomic::{AtomicU32, Ordering};
 use antinode::{Block, Calibration, Sample, Settings};
 use antinode_capi_slow::{Slow, Tracker};
 
+use crate::capacity::ANTINODE_QUEUE_BLOCKS;
 use crate::estimate::Estimate;
 use crate::interrupt::Interrupt;
 use crate::queue::Queue;
@@ -152,14 +153,16 @@ impl Thread {
         self.tracker.settings()
     }
 
-    /// Solves queued blocks up to the next estimate.
+    /// Solves queued blocks up to the next estimate, but no more than a queue holds: on a slow core blocks may come as fast as windows of
+    /// noise are solved, and the call would not end.
     ///
     /// # Safety
     /// One caller at a time.
     #[inline(never)]
     pub(crate) unsafe fn solve<S: Slow>(&mut self, shared: &Shared<S>) -> Option<Estimate> {
-        // SAFETY: the caller is the only consumer.
-        while let Some(estimate) = unsafe { shared.queue.take(|block| self.push(shared, block)) } {
+        for _ in 0..ANTINODE_QUEUE_BLOCKS {
+            // SAFETY: the caller is the only consumer.
+            let estimate = unsafe { shared.queue.take(|block| self.push(shared, block)) }?;
             if estimate.is_some() {
                 return estimate;
             }

@@ -8,7 +8,9 @@
     clean["angle_rad"], clean["angle_std_rad"]     # fields as antinode_estimate_t has them
 
 The command `antinode identify` takes the converter's step and rails from the format of a recording; here give `resolution`, `rail_low` and
-`rail_high`, such as 1/32768 and ±32767/32768 for 16 bits. A window has at most 50 periods, and a period at most 200 samples.
+`rail_high`, such as 1/32768 and ±32767/32768 for 16 bits. A window has at most 50 periods, and a period at most 200 samples. Samples are
+taken in single precision, and no wave is searched for that has an offset of more than 100 times its amplitude: subtract a constant then.
+One thread at a time may use a Gyro, since calls let other threads run.
 
 Needs numpy and the shared library. On Linux `crates/antinode-capi/install PREFIX` installs both, this file in PREFIX/share/antinode, where
 it finds the library by itself; if the library is elsewhere, name it in ANTINODE_LIBRARY. On other systems
@@ -24,6 +26,8 @@ import numpy
 #: The version of the header that this file was written for, and ANTINODE_ESTIMATE.
 VERSION = 256
 WINDOW_ENDED = 2
+#: Sample pairs converted to single precision at a time.
+AT_ONCE = 1 << 16
 
 #: antinode_estimate_t: one window.
 WINDOW = numpy.dtype(
@@ -114,18 +118,22 @@ class Gyro:
 
         A sample that is masked counts as one that is not finite.
         """
-        if isinstance(samples, numpy.ma.MaskedArray):
-            samples = samples.astype("f4").filled(numpy.nan)
-        pairs = numpy.ascontiguousarray(samples, "f4")
-        if pairs.ndim != 2 or pairs.shape[1] != 2:
-            raise ValueError(f"samples are to be of shape (N, 2), not {pairs.shape}")
-        windows, window, taken, at = bytearray(), numpy.zeros(1, WINDOW), ctypes.c_size_t(), 0
-        while at < len(pairs):
-            here = pairs.ctypes.data + at * pairs.strides[0]
-            status = _identify(self._state.ctypes.data, here, len(pairs) - at, ctypes.byref(taken), window.ctypes.data)
-            if _check(status) == WINDOW_ENDED:
-                windows += window.tobytes()
-            at += taken.value
+        if not isinstance(samples, numpy.ndarray):
+            samples = numpy.asarray(samples, "f4")
+        if samples.ndim != 2 or samples.shape[1] != 2:
+            raise ValueError(f"samples are to be of shape (N, 2), not {samples.shape}")
+        windows, window, taken = bytearray(), numpy.zeros(1, WINDOW), ctypes.c_size_t()
+        for begin in range(0, len(samples), AT_ONCE):
+            pairs, at = samples[begin : begin + AT_ONCE], 0
+            if isinstance(pairs, numpy.ma.MaskedArray):
+                pairs = pairs.astype("f4").filled(numpy.nan)
+            pairs = numpy.ascontiguousarray(pairs, "f4")
+            while at < len(pairs):
+                here = pairs.ctypes.data + at * pairs.strides[0]
+                status = _identify(self._state.ctypes.data, here, len(pairs) - at, ctypes.byref(taken), window.ctypes.data)
+                if _check(status) == WINDOW_ENDED:
+                    windows += window.tobytes()
+                at += taken.value
         return numpy.frombuffer(windows, WINDOW)
 
     @property

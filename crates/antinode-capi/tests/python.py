@@ -42,10 +42,12 @@ with wave.open(sys.argv[1]) as file:
 step = 1 / 32768
 silent = antinode.Gyro(rate)
 assert len(silent.push(numpy.zeros((100_000, 2)))) == 0 and not silent.has_wave
+whole = antinode.Gyro(rate, resolution=step, rail_low=step - 1, rail_high=1 - step).push(samples)
 gyro = antinode.Gyro(rate, resolution=step, rail_low=step - 1, rail_high=1 - step)
 windows = numpy.concatenate([gyro.push(part) for part in numpy.array_split(samples, 77)])
 rows = list(csv.DictReader(open(sys.argv[2], encoding="utf-8")))
 assert len(windows) == len(rows) > 100, (len(windows), len(rows))
+assert len(samples) > antinode.AT_ONCE and whole.tobytes() == windows.tobytes()
 assert gyro.has_wave
 names = [name for name in antinode.WINDOW.names if name in rows[0] and name != "flags"]
 assert len(names) == 19, names

@@ -1,6 +1,6 @@
 /*
  * Reads a 16-bit stereo WAV recording (left S_C, right S_D) and prints the wave, one CSV row a window: the rows of
- * `antinode identify --output csv`.
+ * `antinode identify --output csv`, if a period has at most 100 samples: with more that cuts its windows otherwise.
  *
  *     host recording.wav
  */

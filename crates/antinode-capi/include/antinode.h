@@ -171,7 +171,8 @@ enum
     ANTINODE_ERROR_PICK_OFF_ANGLE = -20,
     // `hum` is neither 0 nor 1, or windows with it have fewer than 5 periods, or 10 with a hop.
     ANTINODE_ERROR_HUM = -21,
-    // `frequency_hz` is neither 0 nor within `sample_rate_hz` / ANTINODE_LONGEST_PERIOD to `sample_rate_hz` / 2.5.
+    // `frequency_hz` is neither 0 nor within `sample_rate_hz` / ANTINODE_LONGEST_PERIOD, or half a sample pair more, to
+    // `sample_rate_hz` / 2.5.
     ANTINODE_ERROR_FREQUENCY = -22,
     // `coloured` is neither 0 nor 1.
     ANTINODE_ERROR_COLOURED = -23,
@@ -300,8 +301,8 @@ typedef struct antinode_estimate_t {
 typedef struct antinode_health_t {
     // 1 while a period is searched for, 0 while blocks are gathered; always 0 if `frequency_hz` is given.
     uint32_t searching;
-    // 1 once a window that shows a wave has been solved, until one that shows none. If it stays 0 there is no wave, or none with a period
-    // that is searched for, or none at the frequency given: nothing else shows this.
+    // 1 once a window that shows a wave has been solved, until one that shows none, or `_search`. If it stays 0 there is no wave, or none
+    // with a period that is searched for, or none at the frequency given: nothing else shows this.
     uint32_t has_wave;
     // Finished blocks that wait to be solved, 0 to ANTINODE_QUEUE_BLOCKS.
     uint32_t waiting;

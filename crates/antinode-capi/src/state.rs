@@ -62,8 +62,8 @@ pub(crate) struct Thread {
 pub struct Health {
     /// 1 while a period is searched for, 0 while blocks are gathered; always 0 if `frequency_hz` is given.
     pub searching: u32,
-    /// 1 once a window that shows a wave has been solved, until one that shows none. If it stays 0 there is no wave, or none with a period
-    /// that is searched for, or none at the frequency given: nothing else shows this.
+    /// 1 once a window that shows a wave has been solved, until one that shows none, or `_search`. If it stays 0 there is no wave, or none
+    /// with a period that is searched for, or none at the frequency given: nothing else shows this.
     pub has_wave: u32,
     /// Finished blocks that wait to be solved, 0 to ANTINODE_QUEUE_BLOCKS.
     pub waiting: u32,

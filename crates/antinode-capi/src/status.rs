@@ -50,7 +50,8 @@ pub enum Status {
     ErrorPickOffAngle = -20,
     /// `hum` is neither 0 nor 1, or windows with it have fewer than 5 periods, or 10 with a hop.
     ErrorHum = -21,
-    /// `frequency_hz` is neither 0 nor within `sample_rate_hz` / ANTINODE_LONGEST_PERIOD to `sample_rate_hz` / 2.5.
+    /// `frequency_hz` is neither 0 nor within `sample_rate_hz` / ANTINODE_LONGEST_PERIOD, or half a sample pair more, to
+    /// `sample_rate_hz` / 2.5.
     ErrorFrequency = -22,
     /// `coloured` is neither 0 nor 1.
     ErrorColoured = -23,

@@ -36,13 +36,22 @@
 //  - States are independent of each other.
 //
 // Cost of the interrupt:
-//  - Instructions a sample pair on a Cortex-M4: 200 to 460 during the search for a period, up to 700 over a half-buffer of a signal that
-//    looks like a wave but is not, such as two tones; afterwards 10 to 80, or 70 to 180 with _push. These are means: a single _push may
-//    take 2000 during the search, and 1150 (fixed) or 2150 (float) afterwards; half-buffers never take that many a pair.
-//  - Stack: on a Cortex-M4 up to 0.8 KiB, or 1.0 KiB (fixed) or 1.3 KiB (float) with _push_block; on a Cortex-M3 or M0 up to 1.2 KiB,
-//    or 1.5 or 1.8 KiB with _push_block.
-//  - Floating-point registers: if the core has them, the search uses them, even in fixed point. What saves them for threads must save
-//    them for this interrupt too (lazy stacking; Zephyr: CONFIG_FPU_SHARING).
+//  - Instructions a sample pair with thumbv7em-none-eabihf: 200 to 460 during the search for a period, up to 700 over a half-buffer of
+//    the first block after it, or of a signal that looks like a wave but is not, such as two tones; afterwards 10 to 80, or 70 to 180 with
+//    _push. These are means: a single _push may take 2000 during the search, and 1150 (fixed) or 2150 (float) afterwards; half-buffers
+//    never take that many a pair.
+//  - Without a floating-point unit: during the search, in noise (and at most over a half-buffer of 128 pairs; in a single _push)
+//        thumbv7em-none-eabi   fixed 1790 (4110; 19100)   float 6640 (8990; 23000)
+//        thumbv7m-none-eabi    fixed 2080 (4420; 19400)   float 6620 (8980; 23000)
+//        thumbv6m-none-eabi    fixed 3900 (8550; 38600)   float 12400 (16900; 45000)
+//    At 100 kHz this is more than such a core can do, and the thread gets no time while there is no wave: give `frequency_hz`, with which
+//    a pair takes 21, 119 and 209 (float 1190, 1180 and 2180), over the first half-buffer up to 1130, 1220 and 3430 (float 2410, 2390 and
+//    5200); or, at rates that leave time for half-buffers of up to 1950, 1950 and 4080 (float 2390, 2380 and 5180),
+//    ANTINODE_DETECTION_MEAN_RETURN.
+//  - Stack: with thumbv7em-none-eabihf up to 0.8 KiB, or 1.0 KiB (fixed) or 1.3 KiB (float) with _push_block; with another archive up to
+//    1.2 KiB, or 1.5 or 1.8 KiB with _push_block.
+//  - Floating-point registers: if the core has them, the search and the first block use them, even in fixed point. What saves them for
+//    threads must save them for this interrupt too (lazy stacking; Zephyr: CONFIG_FPU_SHARING).
 //
 // Errors: a NULL or misaligned pointer, a state that is not initialised and a value out of range give a status below 0, and nothing is
 // done; but a state whose _init failed is no longer initialised. A pointer that is neither NULL nor misaligned must point to what its

@@ -1,8 +1,8 @@
 /*
- * Costs of the interrupt side on a Cortex-M4: instructions a sample pair during the search for a period, from half-buffers of noise and of
- * tones that are never found, and pair by pair in a wave; the most instructions of one _push; and the most stack of any call, without the
- * processor's own frame. Counted as in push_block.c. In fixed point the floating-point unit is off once the period is known: an instruction
- * of it would end in the fault handler.
+ * Costs of the interrupt side on the core of TARGET: instructions a sample pair during the search for a period, from half-buffers of noise
+ * with either detector and of tones that are never found, and pair by pair in a wave; the same in noise at a known frequency; the most
+ * instructions of one _push; and the most stack of any call, without the processor's own frame. Counted as in per_core.c. In fixed point
+ * the floating-point unit is off once the period is known: an instruction of it would end in the fault handler.
  */
 #include "counts.h"
 
@@ -15,7 +15,7 @@ static sample_t interleaved[2 * HALF_BUFFER], c[HALF_BUFFER], d[HALF_BUFFER];
 static antinode_estimate_t estimate;
 static antinode_health_t health;
 static uint32_t ticks, pairs, most_stack, most_ticks;
-static int is_told; /* true if the next call of the interrupt side searches anew, because the thread side asked for it */
+static int is_told; /* true if the next call of the interrupt side searches anew, or gathers a first block */
 
 static void fpu(int on)
 {
@@ -72,15 +72,15 @@ static float sine(uint32_t phase)
 }
 
 /*
- * Pushes half-buffers of two tones of equal amplitude, whose periods are in hundredths of a sample pair; returns the most instructions a
- * pair that a half-buffer took, or 0 if a wave is found in them.
+ * Pushes half-buffers of two tones of equal amplitude, whose periods are in hundredths of a sample pair, until a wave is found in them and
+ * its first block is finished; raises `most` to the most instructions a pair that a half-buffer took. Returns 1 if no wave is found.
  */
-static uint32_t tones(const antinode_settings_t *settings, uint32_t period, uint32_t other)
+static int tones(const antinode_settings_t *settings, uint32_t period, uint32_t other, uint32_t *most)
 {
-    uint32_t pushed[HALF_BUFFER], at, i, p = 0, q = 0, most = 0, here;
+    uint32_t pushed[HALF_BUFFER], at, i, p = 0, q = 0, here, found = 0;
 
     CALL(init)(&gyro, settings);
-    for (at = 0; at < PAIRS; at += HALF_BUFFER) {
+    for (at = 0; at < PAIRS / 6; at += HALF_BUFFER) {
         for (i = 0; i < HALF_BUFFER; i++) {
             const float x = 1000.0f * (sine(p) + sine(q));
             pushed[i] = (uint16_t)(int16_t)x | (uint32_t)(uint16_t)(int16_t)(0.6f * x) << 16;
@@ -89,64 +89,107 @@ static uint32_t tones(const antinode_settings_t *settings, uint32_t period, uint
         }
         take(pushed, HALF_BUFFER);
         ticks = pairs = 0;
+        is_told = found > 0; /* the first block */
         push(PACKED, HALF_BUFFER);
-        if (CALL(health)(&gyro, &health) != ANTINODE_OK || health.searching != 1)
-            return 0;
-        here = ticks / 168 * 1000 / pairs;
-        if (here > most)
-            most = here;
+        here = (uint32_t)((uint64_t)ticks * 1000 / MHZ / pairs);
+        *most = here > *most ? here : *most;
+        CALL(health)(&gyro, &health);
+        if (!health.searching && found++ == 2)
+            break;
     }
-    return most;
+    return found == 0;
 }
 
-/* Prints the instructions a pair since the last call. */
-static void print(const char *what)
+/* Two tones of many periods, and one that is too fast, with the same; returns in how many no wave is found. */
+static uint32_t all_tones(const antinode_settings_t *settings, uint32_t *most)
 {
-    const uint32_t thousandths = (uint32_t)((uint64_t)ticks * 1000000 / 168 / pairs);
+    uint32_t period, percent, count = 0;
+
+    for (period = 200; period < 400; period += 10)
+        count += (uint32_t)tones(settings, period, period, most);
+    for (period = 400; period < 3000; period = period * 9 / 8)
+        for (percent = 160; percent <= 240; percent += 10)
+            count += (uint32_t)tones(settings, period, period * percent / 100, most);
+    return count;
+}
+
+/* Prints the instructions a pair since the last call; returns them rounded. */
+static uint32_t print(const char *what)
+{
+    const uint32_t thousandths = (uint32_t)((uint64_t)ticks * 1000000 / MHZ / pairs);
     printf("%s %s %lu.%03lu\n", NAME, what, (unsigned long)thousandths / 1000, (unsigned long)thousandths % 1000);
     ticks = pairs = 0;
+    return (thousandths + 500) / 1000;
+}
+
+/* The next word of noise: codes from 0 to 255. */
+static uint32_t random_word(void)
+{
+    static uint32_t seed = 7;
+    seed = seed * 1664525 + 1013904223;
+    return (seed >> 8 & 0xff) | (seed & 0xff0000);
+}
+
+/*
+ * Pushes half-buffers of noise; returns the instructions a pair, and raises `most` to those of the half-buffer that took most. Returns 0
+ * if the state does not search for a period to the end, or, at a known frequency, if it does.
+ */
+static uint32_t noise(const antinode_settings_t *settings, const char *what, uint32_t *most)
+{
+    uint32_t pushed[HALF_BUFFER], at, i, before = 0, here, mean;
+
+    if (CALL(init)(&gyro, settings) != ANTINODE_OK)
+        return 0;
+    for (at = 0; at < PAIRS; at += HALF_BUFFER) {
+        for (i = 0; i < HALF_BUFFER; i++)
+            pushed[i] = random_word();
+        take(pushed, HALF_BUFFER);
+        is_told = at < ANTINODE_LONGEST_PERIOD; /* at a known frequency, the first block */
+        push(PACKED, HALF_BUFFER);
+        here = (uint32_t)((uint64_t)(ticks - before) * 1000 / MHZ / HALF_BUFFER);
+        *most = here > *most ? here : *most;
+        before = ticks;
+    }
+    mean = print(what);
+    return CALL(health)(&gyro, &health) == ANTINODE_OK && health.searching == (settings->frequency_hz == 0) ? mean : 0;
 }
 
 int main(void)
 {
     const antinode_settings_t settings = antinode_settings_default(100e3);
     static const char *const names[] = {"packed", "interleaved", "separate", "single"};
-    uint32_t at, i, count, form, seed = 7;
-    uint32_t noise[HALF_BUFFER], tracked = 0, most, searched, taken;
+    uint32_t at, i, count, form;
+    antinode_settings_t other = settings;
+    uint32_t word, tracked = 0, mean[3], most[3] = {0, 0, 0}, taken;
 
     SYSTICK[1] = 0xffffffu;
     SYSTICK[2] = 0;
     SYSTICK[0] = 5; /* on, at the core's clock */
 
-    if (CALL(init)(&gyro, &settings) != ANTINODE_OK)
+    mean[0] = noise(&settings, "noise", most);
+    other.detection = ANTINODE_DETECTION_MEAN_RETURN;
+    mean[1] = noise(&other, "noise, mean return", most + 1);
+    if (mean[0] == 0 || mean[1] == 0)
         return 1;
-    for (at = 0; at < PAIRS; at += HALF_BUFFER) {
-        for (i = 0; i < HALF_BUFFER; i++) {
-            seed = seed * 1664525 + 1013904223;
-            noise[i] = (seed >> 8 & 0xff) | (seed & 0xff0000);
-        }
-        take(noise, HALF_BUFFER);
-        push(PACKED, HALF_BUFFER);
-    }
-    if (CALL(health)(&gyro, &health) != ANTINODE_OK || health.searching != 1)
-        return 1;
-    print("noise");
-
-    most = searched = 0;
-    for (at = 200; at < 400; at += 10, searched += taken > 0) {
-        taken = tones(&settings, at, at);
-        most = taken > most ? taken : most;
-    }
-    for (at = 400; at < 3000; at = at * 9 / 8)
-        for (i = 160; i <= 240; i += 10, searched += taken > 0) {
-            taken = tones(&settings, at, at * i / 100);
-            most = taken > most ? taken : most;
-        }
     /* In 142 of these 182 pairs of tones no wave is found. */
-    if (searched < 140)
+    taken = 0;
+    if (all_tones(&settings, &taken) < 140)
         return 1;
-    printf("%s tones, most %lu\n", NAME, (unsigned long)most);
+    printf("%s tones, most %lu\n", NAME, (unsigned long)taken);
+    most[0] = taken > most[0] ? taken : most[0];
+    all_tones(&other, most + 1);
+    /* The slower a wave is, the longer the other detector's trial. */
+    if (tones(&other, 10000, 10000, most + 1) || tones(&other, 19000, 19000, most + 1))
+        return 1;
+    /* The slower a wave, the longer its first block, which makes tables. */
     ticks = pairs = 0;
+    other.frequency_hz = 100e3f / 190;
+    if (noise(&other, "noise, low frequency known", most + 2) == 0)
+        return 1;
+    other.frequency_hz = 5332;
+    mean[2] = noise(&other, "noise, frequency known", most + 2);
+    if (mean[2] == 0)
+        return 1;
     for (at = 0; at < RING - FROM_COLD; at += 29) {
         CALL(init)(&gyro, &settings);
         for (i = 0; CALL(health)(&gyro, &health) == ANTINODE_OK && health.searching && i < FROM_COLD; i++) {
@@ -159,19 +202,21 @@ int main(void)
     CALL(init)(&gyro, &settings);
     for (at = 0; at < PAIRS; at++) {
         const uint32_t kind = at / 1024 % 4, period = 5 + at / 4096 * 7;
-        seed = seed * 1664525 + 1013904223;
-        noise[0] = (seed >> 8 & 0xff) | (seed & 0xff0000);
+        word = random_word();
         if (kind > 1) {
-            noise[0] = (uint16_t)(int16_t)(1500 * sine(at * (0xffffffffu / period)));
-            noise[0] |= (uint32_t)(uint16_t)(int16_t)(1500 * sine(at * (0xffffffffu / period / 10 * (kind * 4 + 1)))) << 16;
+            word = (uint16_t)(int16_t)(1500 * sine(at * (0xffffffffu / period)));
+            word |= (uint32_t)(uint16_t)(int16_t)(1500 * sine(at * (0xffffffffu / period / 10 * (kind * 4 + 1)))) << 16;
         }
-        take(kind == 1 ? _binary_codes_bin_start + at % RING : noise, 1);
+        take(kind == 1 ? _binary_codes_bin_start + at % RING : &word, 1);
         is_told = 1; /* _solve asks for a search when it finds no wave in noise */
         push(SINGLE, 1);
         while (CALL(solve)(&gyro, &estimate) == ANTINODE_ESTIMATE)
             ;
     }
-    printf("%s single, at once %lu\n", NAME, (unsigned long)(most_ticks * 1000ull / 168));
+    taken = (uint32_t)(most_ticks * 1000ull / MHZ);
+    printf("%s single, at once %lu\n", NAME, (unsigned long)taken);
+    printf("%s row %lu %lu %lu", NAME, (unsigned long)mean[0], (unsigned long)most[0], (unsigned long)taken);
+    printf(" %lu %lu %lu %lu\n", (unsigned long)mean[1], (unsigned long)most[1], (unsigned long)mean[2], (unsigned long)most[2]);
 
     most_stack = 0;
     /* Every push function, from cold to a full queue, with a search on the way. */

@@ -175,7 +175,14 @@ fn open(path: &Path, options: &Identify) -> Result<(Recording, f64), Failure> {
         columns: options.columns.clone(),
         rate: options.rate,
     };
-    let recording = Recording::open(path, &open)?;
+    let mut recording = Recording::open(path, &open)?;
+    if options.rate.or(recording.opened.sample_rate).is_none() && !is_pipe(&recording) {
+        // A fault in the first lines may be why the rate is unknown: the second read returns the fault that ended the first.
+        let mut buffer = Vec::with_capacity(BLOCK_PAIRS);
+        for _ in 0..2 {
+            recording.read(&mut buffer)?;
+        }
+    }
     let name = &recording.name;
     let own = recording.opened.sample_rate;
     let rate = sample_rate(name, options.rate, own, options.columns.as_ref())?;

@@ -43,3 +43,29 @@ fn parts(text: &[u8]) -> Option<(i64, f64)> {
         digits(rest)? as f64 / 10f64.powi(rest.len() as i32),
     ))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_counted_from_the_first_whole_one() {
+        let origin = Origin::of(b"1700000000.00817");
+        assert_eq!(origin.value(), 1.7e9);
+        let since = |text: &str| origin.since(text.as_bytes(), text.parse().unwrap());
+        for (text, expected) in [
+            ("1700000000.00817", 0.00817),
+            ("1700000012.5", 12.5),
+            ("1699999999", -1.0),
+            // With digits of a double.
+            ("1.70000000025e9", 0.25),
+            ("-1", -1_700_000_001.0),
+        ] {
+            assert_eq!(since(text), expected, "{text}");
+        }
+        assert_eq!(origin.since(b"1700000000,25", f64::NAN), 0.25);
+        for text in ["0.5", "9999999.5", "-1700000000.5", "1.7e9", "inf", ""] {
+            assert_eq!(Origin::of(text.as_bytes()).value(), 0.0, "{text}");
+        }
+    }
+}

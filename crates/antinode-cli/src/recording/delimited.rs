@@ -47,11 +47,11 @@ pub(super) fn open(stream: Stream, options: &OpenOptions, live: bool) -> Result<
         return Err(source.fault.take().unwrap_or_else(Fault::no_pairs));
     }
     let (sample_rate, start) = (source.rate(), source.start());
-    if options.rate.or(sample_rate).is_none()
-        && let Some(fault) = source.fault.take()
-    {
-        // It may be why the rate is unknown.
-        return Err(fault);
+    if live && options.rate.or(sample_rate).is_none() {
+        // A fault may be why the rate is unknown; a pipe may have no more lines yet.
+        if let Some(fault) = source.fault.take() {
+            return Err(fault);
+        }
     }
     let axis = source.times();
     let meaning = match (source.rows.header.sequence, sample_rate) {

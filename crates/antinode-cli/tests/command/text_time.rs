@@ -51,8 +51,17 @@ fn dates_have_all_their_digits() {
         fs::write(here.join("a.csv"), &dated).unwrap();
         let rows = run(here, "identify --output csv a.csv").out;
         same_later(&Row::all(&rows), &expected, 1.7e9);
-        // A time that goes back is told as it stands there.
+        // A gap, and a time that goes back, are told as they stand there.
         let lines = dated.lines().count();
+        let lost: Vec<&str> = dated
+            .lines()
+            .take(900)
+            .chain(dated.lines().skip(907))
+            .collect();
+        fs::write(here.join("a.csv"), lost.join("\n")).unwrap();
+        let told = run(here, "identify a.csv").err;
+        let gap = "7 samples are lost before this line (time goes from 1700000000.00";
+        assert!(told.contains(gap), "{unit}: {told}");
         let cut: Vec<&str> = dated.lines().take(lines - 200).collect();
         let again = cut[100..].join("\n");
         fs::write(here.join("a.csv"), cut.join("\n") + "\n" + &again).unwrap();

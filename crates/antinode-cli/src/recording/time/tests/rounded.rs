@@ -61,10 +61,10 @@ fn the_roundest_rate_that_explains_all_times_is_found() {
 fn the_first_sample_may_lie_anywhere_in_its_digit() {
     for (rate, decimals) in [(48_000.0, 4), (44_100.0, 4), (192_000.0, 5), (100_000.0, 4)] {
         let digit = 10f64.powi(decimals);
-        for start in [0.1, 0.3, 0.45, 0.5, 0.7, 0.9] {
+        for start in [0.1, 0.45, 0.9] {
             // As a logger prints them that rounds or that cuts.
             for print in [f64::round, f64::floor] {
-                let text = times(200_000, rate, start / digit, |t| {
+                let text = times(140_000, rate, start / digit, |t| {
                     format!("{:.*}", decimals as usize, print(t * digit) / digit)
                 });
                 let (found, gaps) = axis(&text, HEAD).unwrap();
@@ -153,7 +153,7 @@ fn a_sample_lost_between_uneven_steps_is_found() {
 #[test]
 fn a_long_pause_costs_no_lines_behind_it() {
     for (rate, decimals) in [(331_000.0, 5), (802_985.0, 6), (96_000.0, 5)] {
-        for at in [46, 30_000, 76_000] {
+        for at in [46, 76_000] {
             let mut text = times(300_000, rate, 0.3, |t| format!("{t:.decimals$}"));
             text.drain(at..at + 200_000);
             let (_, gaps) = axis(&text, HEAD).unwrap();
@@ -164,6 +164,22 @@ fn a_long_pause_costs_no_lines_behind_it() {
                 "{gaps:?}"
             );
         }
+    }
+}
+
+#[test]
+fn wrong_times_do_not_mislead_the_phase_of_the_first() {
+    for (wrong, is_known) in [("0.90000", true), ("0.10000", false)] {
+        let mut text = times(60_000, 96_000.0, 0.3, |t| format!("{t:.5}"));
+        text.remove(40);
+        text[20] = wrong.to_owned();
+        let (first, printed) = read(&text);
+        let phase = TimeAxis::of(&first, printed).unwrap().phase;
+        assert_eq!(phase.is_some(), is_known, "{wrong}");
+        let is_true = |phase: Phase| (phase.middle() - 0.3).abs() <= 0.5 * phase.width();
+        assert!(phase.is_none_or(is_true), "{phase:?}");
+        // The last digit is a sample, and its part is known.
+        assert!(phase.is_none_or(|phase| phase.width() < 2e-6), "{phase:?}");
     }
 }
 

@@ -39,7 +39,8 @@ fn dates_have_all_their_digits() {
     let samples = WAVE.codes(5000);
     let expected = rows_of(here, &text(&samples), "");
     // Times of samples in the last digit, or in few of them, and of a double.
-    let prints: [(&str, fn(u64) -> String); 4] = [
+    type Print = fn(u64) -> String;
+    let prints: [(&str, Print); 4] = [
         ("s", |k| format!("1700000000.{k:05}")),
         ("ms", |k| format!("1700000000{:03}.{:02}", k / 100, k % 100)),
         ("ns", |k| format!("170000000{:010}", 10_000 * k)),

@@ -110,7 +110,7 @@ static uint32_t longest_call(void)
     settings.frequency_hz = 100e3f / 150;
     if (CALL(init)(&gyro, &settings) != ANTINODE_OK)
         return 0;
-    for (calls = 0; calls < 40; calls++) {
+    for (calls = 0; calls < 24; calls++) {
         do {
             seed = seed * 1664525u + 1013904223u;
             word = seed >> 11 & 0xff00ffu;

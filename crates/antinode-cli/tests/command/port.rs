@@ -1,12 +1,12 @@
 //! `antinode command` on a port.
 #![cfg(unix)]
 
-use std::io::{Read, Write};
+use std::io::Write;
 use std::path::Path;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::common::device::{Device, pair};
+use crate::common::device::{Device, pair, wait_for_input};
 use crate::common::run;
 use antinode_telemetry::{Cause, Command as Asked, MAX_FRAME, Report, Reporter, State};
 
@@ -161,10 +161,7 @@ fn a_command_that_is_not_heard_is_sent_again() {
 fn a_restart_whose_acknowledgement_is_lost_is_known_by_the_start_that_follows() {
     let (mut port, path) = pair();
     let device = thread::spawn(move || {
-        // Reading fails until somebody opens the other end.
-        while port.read(&mut [0; 64]).is_err() {
-            thread::sleep(Duration::from_millis(2));
-        }
+        wait_for_input(&mut port);
         let mut buffer = [0; MAX_FRAME];
         let started = Report::State(State::Started(Cause::Command));
         let frame = Reporter::new().frame(&started, &mut buffer).unwrap();

@@ -11,7 +11,7 @@ use std::sync::mpsc;
 use std::thread;
 use std::time::Duration;
 
-use crate::common::device::{Device, pair};
+use crate::common::device::{Device, pair, wait_for_input};
 use crate::common::send;
 use antinode::{Estimate, Identifier, Settings};
 use antinode_telemetry::{Command as Asked, MAX_FRAME, Reporter};
@@ -91,10 +91,7 @@ fn a_monitor_on_a_port_shows_what_comes_until_it_is_interrupted() {
 fn frames_that_a_monitor_begins_or_ends_within_are_not_damaged() {
     let (mut port, path) = pair();
     let mut child = monitor(&path);
-    // Once its greeting has come, it listens.
-    while port.read(&mut [0; 64]).is_err() {
-        thread::sleep(Duration::from_millis(2));
-    }
+    wait_for_input(&mut port);
     let (mut reporter, mut buffer) = (Reporter::new(), [0; MAX_FRAME]);
     let mut frame = || {
         let frame = reporter.frame(&estimate().into(), &mut buffer);
@@ -153,9 +150,7 @@ fn a_silent_port_is_reported_while_it_is_waited_for() {
 fn a_port_that_falls_silent_is_reported_once_and_when_it_is_heard_again() {
     let (mut port, path) = pair();
     let mut child = monitor(&path);
-    while port.read(&mut [0; 64]).is_err() {
-        thread::sleep(Duration::from_millis(2));
-    }
+    wait_for_input(&mut port);
     let (mut reporter, mut buffer) = (Reporter::new(), [0; MAX_FRAME]);
     let mut send_one = || {
         let frame = reporter.frame(&estimate().into(), &mut buffer);

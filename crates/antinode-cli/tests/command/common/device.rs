@@ -31,6 +31,14 @@ pub fn pair() -> (TTYPort, String) {
     (port, other.name().unwrap())
 }
 
+/// Waits until the other end is open and has written something, as a monitor does to greet its device.
+pub fn wait_for_input(port: &mut TTYPort) {
+    // Reading fails until somebody opens the other end.
+    while port.read(&mut [0; 64]).is_err() {
+        thread::sleep(Duration::from_millis(2));
+    }
+}
+
 impl Device {
     /// A device with a ring of 64 blocks; a `loud` one sends other bytes and reports before every answer.
     pub fn start(loud: bool) -> Self {

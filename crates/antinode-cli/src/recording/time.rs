@@ -57,9 +57,8 @@ pub(super) struct TimeAxis {
     last: f64,
     /// The step between neighbouring printed times near the last, s.
     rounding: f64,
-    /// The time at which the current stretch begins, s, and how far rounding may have moved it.
-    anchor: f64,
-    anchor_error: f64,
+    /// Where the sample lies with which the current stretch begins.
+    anchor: Phase,
     /// The number of samples since then, lost ones included.
     lines: u64,
     /// The uncertainty of `step` from the rounding of the times that it was found from, s.
@@ -168,8 +167,7 @@ impl TimeAxis {
             step: 1.0 / rate,
             last: start,
             rounding: printed.step(start),
-            anchor: start,
-            anchor_error: printed.error(start),
+            anchor: Phase::near(start, printed.error(start)),
             lines: 0,
             uncertainty,
             harmless: 0.0,
@@ -232,11 +230,8 @@ impl TimeAxis {
         if self.lines < RATE_LINES {
             return Ok(lost);
         }
-        let here = self.phase.map_or(now, Phase::middle);
-        let here_error = self
-            .phase
-            .map_or(printed.error(now), |phase| 0.5 * phase.width());
-        let length = here - self.anchor;
+        let here = self.last_phase(printed);
+        let length = here.middle() - self.anchor.middle();
         let lines = self.lines as f64;
         // A clock may drift by a few ppm, but not by half a sample in [`RATE_LINES`].
         let is_off = |step: f64, uncertainty: f64| {
@@ -254,8 +249,8 @@ impl TimeAxis {
         }
         // The next stretch is compared with this one: a clock that warms up drifts far in the end, but never at once.
         self.step = length / lines;
-        self.uncertainty = (self.anchor_error + here_error) / lines;
-        (self.anchor, self.anchor_error) = (here, here_error);
+        self.uncertainty = 0.5 * (self.anchor.width() + here.width()) / lines;
+        self.anchor = here;
         self.lines = 0;
         Ok(lost)
     }

@@ -47,6 +47,13 @@ fn told(child: &mut Child) -> String {
     told
 }
 
+/// Waits until a monitor greets the device, which then sends an estimate.
+fn answer(device: &Device) {
+    let asked = device.asked.recv_timeout(Duration::from_secs(10));
+    assert_eq!(asked, Ok(Asked::Get));
+    device.reports.send(estimate().into()).unwrap();
+}
+
 /// True if a command ends within 10 s; otherwise it is killed.
 fn ends(child: &mut Child) -> bool {
     for _ in 0..500 {
@@ -64,11 +71,7 @@ fn ends(child: &mut Child) -> bool {
 fn a_monitor_on_a_port_shows_what_comes_until_it_is_interrupted() {
     let device = Device::start(false);
     let mut child = monitor(&device.path);
-    assert_eq!(
-        device.asked.recv_timeout(Duration::from_secs(10)),
-        Ok(Asked::Get)
-    );
-    device.reports.send(estimate().into()).unwrap();
+    answer(&device);
     let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
     assert!(lines.next().unwrap().unwrap().starts_with("time_s,"));
     assert!(lines.next().unwrap().unwrap().ends_with(&device.path));
@@ -222,11 +225,7 @@ fn unread() -> (Child, impl Sized) {
     let device = Device::start(false);
     let (reader, mut writer) = io::pipe().unwrap();
     let child = monitor_to(&device.path, writer.try_clone().unwrap());
-    assert_eq!(
-        device.asked.recv_timeout(Duration::from_secs(10)),
-        Ok(Asked::Get)
-    );
-    device.reports.send(estimate().into()).unwrap();
+    answer(&device);
     let mut lines = BufReader::new(reader).lines();
     assert!(lines.nth(1).is_some());
     // Another writer fills the pipe and waits, so that the next row waits too.
@@ -269,11 +268,7 @@ fn a_monitor_whose_rows_nobody_reads_is_terminated() {
 fn a_monitor_that_is_terminated_tells_its_totals() {
     let device = Device::start(false);
     let mut child = monitor(&device.path);
-    assert_eq!(
-        device.asked.recv_timeout(Duration::from_secs(10)),
-        Ok(Asked::Get)
-    );
-    device.reports.send(estimate().into()).unwrap();
+    answer(&device);
     let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
     assert!(lines.nth(1).is_some());
     send("-TERM", &child);

@@ -48,10 +48,13 @@ impl Phase {
 impl TimeAxis {
     /// The fewest samples lost before the next one that explain its time, and its phase; none if no number of them does.
     pub(super) fn fewest_lost(&self, now: f64, printed: Printed) -> Option<(u64, Phase)> {
-        let last = self
-            .phase
-            .unwrap_or_else(|| Phase::near(self.last, printed.error(self.last)));
-        self.followed(last, self.printed_at(now, printed))
+        self.followed(self.last_phase(printed), self.printed_at(now, printed))
+    }
+
+    /// Where the last sample lies.
+    pub(super) fn last_phase(&self, printed: Printed) -> Phase {
+        self.phase
+            .unwrap_or_else(|| Phase::near(self.last, printed.error(self.last)))
     }
 
     /// Where the sample of the first of these times lies, if that of the last lies there; none if a time among them leads astray.
@@ -89,10 +92,7 @@ impl TimeAxis {
         }
         let earliest = last.earliest + steps * shortest;
         let latest = last.latest + steps * longest;
-        let phase = Phase {
-            earliest: earliest.max(here.earliest),
-            latest: latest.min(here.latest),
-        };
+        let phase = Phase::between(earliest.max(here.earliest), latest.min(here.latest));
         (phase.earliest <= phase.latest).then_some((steps as u64 - 1, phase))
     }
 }

@@ -78,8 +78,9 @@ pub struct Settings {
     pub resolution: Option<f32>,
     /// The wave's frequency in Hz, if it is known within 5 %: no period is searched for, and the first window begins with the first sample,
     /// even in noise nearly as large as the wave. A period may then have 2.5 samples to as many as a block holds, `N`. If the wave is at
-    /// another frequency there is no window, or a flagged one. `None`: the period is found as `detection` says, but that of a wave of fewer
-    /// than 12 codes, or 16 if samples are `i32`, may not be found at all.
+    /// another frequency there is no window, or a flagged one, but for one wave in some thousands: its windows, with a fraction of its
+    /// amplitude, may all be clean. `None`: the period is found as `detection` says, but that of a wave of fewer than 12 codes, or 16 if
+    /// samples are `i32`, may not be found at all.
     pub frequency: Option<f32>,
     /// How the period is found from cold.
     #[cfg_attr(feature = "serde", serde(default))]

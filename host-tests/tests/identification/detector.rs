@@ -1,7 +1,7 @@
 //! The period from cold: found soon, never in noise, and never a fraction or a multiple.
 
 use antinode::period::{DifferenceDetector, MeanReturnDetector};
-use antinode::{Identifier, Sample, SamplePair};
+use antinode::{Detection, Identifier, Sample, SamplePair, Settings};
 use antinode_sim::{Flaws, Gyro, Wave, random_wave};
 use host_tests::{Core, RATE, identify, no_wave, stream, windows};
 
@@ -220,6 +220,51 @@ fn a_wave_that_begins_late_is_found_as_soon() {
         );
         // A frame in which the wave began late looks slow, and begins anew.
         assert!(worst < 0.1 && mean < 3.0 && latest < 5.5);
+    }
+}
+
+#[test]
+fn mean_return_detection_finds_a_wave_that_begins_late() {
+    for noise in [1e-3, 0.01] {
+        let mut times = Vec::new();
+        for seed in 0..2000 {
+            let period = 4.6 * 40f64.powf((seed as f64 * 0.618_034).fract());
+            let wave = random_wave(seed, RATE / period, 0.5);
+            let flaws = Flaws {
+                noise: noise * wave.main_amplitude,
+                ..Flaws::default()
+            };
+            // After noise, whose mean is not the wave's.
+            let before = (seed as f64 * 0.381_966).fract() * 25.0 * period;
+            let silent = Gyro::new(no_wave(), flaws.clone(), RATE, seed).unwrap();
+            let gyro = Gyro::new(wave, flaws, RATE, seed + 10_000).unwrap();
+            let mut core = Core::new(Settings {
+                detection: Detection::MeanReturn,
+                ..Settings::new(RATE)
+            })
+            .unwrap();
+            let clean = silent
+                .take(before as usize)
+                .chain(gyro.take((400.0 * period) as usize))
+                .find_map(|pair| {
+                    let row = core.push(pair.map(|x| x as f32))?;
+                    row.flags.is_empty().then_some(row)
+                });
+            let clean = clean.unwrap();
+            let off = clean.frequency - RATE / period;
+            assert!(
+                off.abs() < 6.0 * f64::from(clean.frequency_std),
+                "{seed}: {clean:?}"
+            );
+            times.push((clean.start as f64 - before) / period);
+        }
+        times.sort_by(f64::total_cmp);
+        let (mean, latest) = (mean(&times), times[times.len() - 1]);
+        println!("(9) late, noise {noise}: mean {mean:.2} periods, latest {latest:.1}");
+        assert!(
+            mean < 14.0 && latest < 40.0,
+            "noise {noise}: {mean} {latest}"
+        );
     }
 }
 

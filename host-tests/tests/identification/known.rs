@@ -1,7 +1,7 @@
 //! Settings with a known frequency: the error that it may have, the periods that are allowed, and the results of a wrong one.
 
-use antinode::{Estimate, Flags, Front, Settings, SettingsError};
-use antinode_sim::{Flaws, Wave, random_wave};
+use antinode::{Estimate, Flags, Front, Identifier, Settings, SettingsError};
+use antinode_sim::{Flaws, Gyro, Wave, random_wave};
 use host_tests::codes::{codes, converted, identify_up_to};
 use host_tests::random::Random;
 use host_tests::score::{NAMES, Score, StatedRatio};
@@ -168,6 +168,23 @@ fn periods_may_be_as_long_as_a_block_in_any_arithmetic() {
             check(score, 950, 1.12, &format!("{label}, {arithmetic}"));
         }
     }
+}
+
+#[test]
+fn loud_noise_over_long_periods_is_no_misfit() {
+    let period = 16_000.0;
+    let (wave, mut flaws) = noisy(period, 1);
+    flaws.noise = 0.8 * wave.main_amplitude;
+    let settings = told(10, wave.frequency, 0.0);
+    let mut core = Box::new(Identifier::<f32, 16_384, 16>::new(settings).unwrap());
+    let mut rows = 0;
+    for pair in Gyro::new(wave, flaws, RATE, 1).unwrap().take(6_400_000) {
+        if let Some(row) = core.push(pair.map(|x| x as f32)) {
+            assert!(row.flags.is_empty(), "{row:?}");
+            rows += 1;
+        }
+    }
+    assert_eq!(rows, 39);
 }
 
 #[test]

@@ -18,6 +18,8 @@ const SPAN: u16 = 2;
 const TRIAL_PERIODS: f32 = 3.0;
 /// Samples that a stage may take: after more, the search begins anew.
 const MAX_STAGE: u16 = 800;
+/// Periods in which the sum of a wave has returned [`SPAN`] times.
+const MAX_SUM: f32 = 3.0;
 
 /// Detects upward crossings of zero that exceed a margin on both sides.
 #[derive(Debug, Clone, Copy, Default)]
@@ -58,11 +60,13 @@ enum Stage {
         mean: f32,
         margin: f32,
         samples: u16,
+        longest: u16,
     },
-    /// Sums until the sum has returned to zero.
+    /// Sums until the sum has returned to zero, for `longest` samples: with the mean of noise or of a wave's beginning it never does.
     Sum {
         mean: f32,
         margin: f32,
+        longest: u16,
         upward: Upward,
         sum: f32,
         returns: u16,
@@ -131,7 +135,7 @@ impl MeanReturnDetector {
                 }
                 let strong = usize::from(swing[1] > swing[0]);
                 if crossings[strong] < 2 {
-                    return self.wait();
+                    return self.wait(MAX_STAGE);
                 }
                 self.channel = strong;
                 Stage::Mean {
@@ -158,7 +162,7 @@ impl MeanReturnDetector {
                 *area += 0.5 * (height + *before);
                 *before = height;
                 if !upward.crossed(height, 0.25 * *swing) {
-                    return self.wait();
+                    return self.wait(MAX_STAGE);
                 }
                 // Time from the crossing to this sample, by the line through the last two samples.
                 let overshoot = height / rise;
@@ -169,7 +173,7 @@ impl MeanReturnDetector {
                     self.time = 0;
                 }
                 if *crossings <= SPAN {
-                    return self.wait();
+                    return self.wait(MAX_STAGE);
                 }
                 let span = f32::from(self.time) + *first_overshoot - overshoot;
                 let mean = *middle + (*area - triangle) / span;
@@ -179,19 +183,22 @@ impl MeanReturnDetector {
                     margin: 0.25 * *swing * period / TAU,
                     // The sum's first sample should lie half a sample past the second crest from here.
                     samples: (1.25 * period - overshoot) as u16,
+                    longest: (MAX_SUM * period) as u16 + 2,
                 }
             }
             Stage::Crest {
                 mean,
                 margin,
                 samples,
+                longest,
             } => {
                 if self.time < *samples {
-                    return self.wait();
+                    return self.wait(MAX_STAGE);
                 }
                 Stage::Sum {
                     mean: *mean,
                     margin: *margin,
+                    longest: *longest,
                     upward: Upward::default(),
                     sum: 0.0,
                     returns: 0,
@@ -200,6 +207,7 @@ impl MeanReturnDetector {
             Stage::Sum {
                 mean,
                 margin,
+                longest,
                 upward,
                 sum,
                 returns,
@@ -213,7 +221,8 @@ impl MeanReturnDetector {
                     *returns += 1;
                 }
                 if *returns < SPAN {
-                    return self.wait();
+                    let longest = *longest;
+                    return self.wait(longest);
                 }
                 // Part of the last step that lies beyond zero.
                 let overshoot = *sum / step;
@@ -225,7 +234,7 @@ impl MeanReturnDetector {
             Stage::Try => {
                 self.trial.push(pair);
                 if !self.trial.is_whole() {
-                    return self.wait();
+                    return self.wait(MAX_STAGE);
                 }
                 self.restart();
                 let found = self.trial.fitted(0.0).map(|found| found.period);
@@ -237,9 +246,9 @@ impl MeanReturnDetector {
         None
     }
 
-    /// Stays in the stage, or restarts if it has taken too long.
-    fn wait(&mut self) -> Option<f32> {
-        if self.time > MAX_STAGE {
+    /// Stays in the stage, or restarts if it has taken more than `longest` samples.
+    fn wait(&mut self, longest: u16) -> Option<f32> {
+        if self.time > longest {
             self.restart();
         }
         None

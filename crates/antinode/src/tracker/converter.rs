@@ -1,5 +1,7 @@
 //! Effects of the converter on a window: its steps, its rails, and channels that stand still.
 
+use core::f32::consts::LN_2;
+
 use super::record::Record;
 use super::standing::Standing;
 use crate::arch::square_root;
@@ -82,9 +84,6 @@ fn distinct_phases(frequency: PhaseStep, samples: f32, width: f32) -> f32 {
 
 /// Standard deviations of the noise by which a sample may lie beyond the wave: fewer than one in 10¹⁴ lie further.
 const SAMPLE_SIGMAS: f32 = 8.0;
-/// Standard deviations of the noise by which, besides [`LOUD_NOISE`] of a_A, samples of every block may lie beyond a first wave or one in
-/// loud noise: those of a wave at another frequency lie further, though its sums look like noise.
-const EVERY_BLOCK_SIGMAS: f32 = 3.5;
 /// Standard deviation of loud noise, as a share of a_A.
 const LOUD_NOISE: f32 = 0.25;
 /// How far hum may take samples beyond the wave, from its one extreme to the other, in multiples of its rms.
@@ -131,7 +130,8 @@ pub(super) fn sample_flags(
             && are_all_beyond(
                 blocks,
                 fit,
-                EVERY_BLOCK_SIGMAS * deviation + LOUD_NOISE * main,
+                every_block_sigmas(wave.record.samples.get(), blocks.len()) * deviation
+                    + LOUD_NOISE * main,
             );
     flags
         .with_if(clipped, Flags::CLIPPED)
@@ -202,6 +202,14 @@ impl Range {
     fn is_beyond(&self, fit: &Fit, margin: f32) -> bool {
         (0..2).any(|i| is_beyond(fit, i, [self.low[i], self.high[i]], margin, HUM_REACH))
     }
+}
+
+/// Standard deviations of the noise by which, besides [`LOUD_NOISE`] of a_A, samples of every block may lie beyond a first wave or one in
+/// loud noise, in `blocks` of `samples` pairs in all: those of a wave at another frequency lie further, though its sums look like noise.
+/// √(2 ln 2n) or a little more: 2n samples of noise hardly exceed it in every block.
+fn every_block_sigmas(samples: u32, blocks: usize) -> f32 {
+    let pairs = samples / blocks as u32;
+    square_root(2.0 * LN_2 * (u32::BITS + 1 - pairs.leading_zeros()) as f32)
 }
 
 /// True when every block has samples more than `margin` beyond the wave.

@@ -2,16 +2,34 @@
 
 /// The resolution of all times so far: that of their decimals or of their digits, or of single precision if it holds them all, whichever
 /// is coarsest.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Printed {
     decimals: i32,
     digits: i32,
+    /// The last decimal, s, and the time, s, from which on the last digit is coarser.
+    last_decimal: f64,
+    full: f64,
     /// True once a time has been seen that single precision does not hold.
     is_double: bool,
     /// True once a time has been seen with a point or an exponent.
     has_point: bool,
     /// The time, s, from which on times are counted.
     origin: f64,
+}
+
+impl Default for Printed {
+    /// No times yet.
+    fn default() -> Self {
+        Self {
+            decimals: 0,
+            digits: 0,
+            last_decimal: 1.0,
+            full: 1.0,
+            is_double: false,
+            has_point: false,
+            origin: 0.0,
+        }
+    }
 }
 
 impl Printed {
@@ -38,9 +56,14 @@ impl Printed {
         let decimals = decimals.saturating_sub(own.unwrap_or(0));
         let is_padded = point && last == b'0';
         self.is_double = self.is_double || !is_single(value, decimals, is_padded);
-        self.decimals = self.decimals.max(decimals.saturating_sub(exponent));
         self.has_point = self.has_point || point || own.is_some();
-        self.digits = self.digits.max(digits);
+        let decimals = decimals.saturating_sub(exponent);
+        if decimals > self.decimals || digits > self.digits {
+            self.decimals = self.decimals.max(decimals);
+            self.digits = self.digits.max(digits);
+            self.last_decimal = 10f64.powi(-self.decimals);
+            self.full = 10f64.powi(self.digits.saturating_sub(self.decimals));
+        }
     }
 
     /// Counts times from `origin` on, s.
@@ -65,14 +88,14 @@ impl Printed {
     }
 
     fn last_digit(self, seconds: f64) -> f64 {
-        let magnitude = self.absolute(seconds).abs().log10().floor().max(-300.0) as i32;
+        let seconds = self.absolute(seconds).abs();
         // Whole numbers have all their digits.
-        let by_digits = if self.has_point {
-            10f64.powi(magnitude + 1 - self.digits)
-        } else {
-            0.0
-        };
-        10f64.powi(-self.decimals).max(by_digits)
+        if !self.has_point || seconds < self.full {
+            return self.last_decimal;
+        }
+        let magnitude = seconds.log10().floor() as i32;
+        self.last_decimal
+            .max(10f64.powi(magnitude + 1 - self.digits))
     }
 
     fn precision(self, seconds: f64) -> f64 {

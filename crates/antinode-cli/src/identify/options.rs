@@ -68,13 +68,13 @@ pub struct Identify {
     #[arg(long, value_name = "STEP", value_parser = ranges::positive, help_heading = "Recording")]
     pub resolution: Option<f32>,
     /// Periods per window, 2 to 1022.
-    #[arg(long, default_value_t = 10, value_name = "N", value_parser = value_parser!(u16).range(2..=i64::from(MAX_PERIODS)), help_heading = "Windows")]
+    #[arg(long, default_value_t = 10, value_name = "N", value_parser = |text: &str| ranges::whole(text, 2, MAX_PERIODS), help_heading = "Windows")]
     pub periods: u16,
     /// Blocks from the start of one window to the start of the next [default: a window begins where the last one ends].
     ///
     /// With --hop a block is a period, or a tenth of the window if that has fewer than ten periods. Fewer blocks than a window has make
     /// windows overlap, more leave gaps between them.
-    #[arg(long, value_name = "BLOCKS", value_parser = value_parser!(u16).range(1..), help_heading = "Windows")]
+    #[arg(long, value_name = "BLOCKS", value_parser = |text: &str| ranges::whole(text, 1, u16::MAX), help_heading = "Windows")]
     pub hop: Option<u16>,
     /// The wave's frequency, Hz, if it is known within 5 %: it is then not searched for, and the first window begins with the first
     /// sample.

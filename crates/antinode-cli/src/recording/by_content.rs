@@ -24,11 +24,11 @@ pub struct OpenOptions {
 
 /// Neither the content nor the extension is known.
 pub(super) const UNKNOWN: &str = "the format is not known, neither by content nor by extension; give a .wav, .csv, .tsv, .txt, .lvm or .npy \
-                                  file, or for raw samples their format with --raw u8, i8, u16, i16, i24, i32, f32 or f64, or for text the \
-                                  columns with --columns";
+                                  file, or for raw samples their format with --raw u8, i8, u16, i16, i24, i32, f16, f32 or f64, or for text \
+                                  the columns with --columns";
 /// Standard input of no known format, without a sample format.
 pub(super) const RAW_FORMAT_NEEDED: &str = "this is neither WAV, NPY nor CSV; for raw samples give their format with --raw u8, i8, u16, i16, \
-                                            i24, i32, f32 or f64 (little-endian, S_C and S_D interleaved), or for text the columns with \
+                                            i24, i32, f16, f32 or f64 (little-endian, S_C and S_D interleaved), or for text the columns with \
                                             --columns";
 
 /// Opens a stream by its content, or else by what is known about it otherwise.

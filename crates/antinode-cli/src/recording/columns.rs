@@ -3,7 +3,7 @@
 mod roles;
 mod suggested;
 
-pub(super) use roles::{is_known, is_time};
+pub(super) use roles::{are_swapped, is_known, is_time};
 
 use std::fmt;
 use std::str::FromStr;

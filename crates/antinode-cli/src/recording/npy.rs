@@ -1,13 +1,13 @@
-//! NPY files, as `numpy.save` writes them: (N, 2) or (2, N) numbers.
+//! NPY files, as `numpy.save` writes them: (N, 2) or (2, N) numbers, or N records of numbers.
 
 use std::cell::Cell;
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::rc::Rc;
 
-use npyz::{DType, Endianness, NpyHeader, Order, TypeChar};
+use npyz::{DType, Endianness, Field, NpyHeader, Order, TypeChar};
 
-use super::columns::Columns;
+use super::columns::{Columns, are_swapped};
 use super::error::Fault;
 use super::frame::Frame;
 use super::raw::{Followed, Interleaved};
@@ -38,9 +38,18 @@ pub(super) fn open(
     let text = header_text(&mut stream)?;
     let not_understood = || damaged("it cannot be understood");
     let header = NpyHeader::from_reader(text.as_slice()).map_err(|_| not_understood())?;
-    let code = code(&header.dtype())?;
-    let (pairs, channels, is_interleaved) = layout(&header, columns.is_some())?;
-    let frame = Frame::choose(usize::try_from(channels).unwrap_or(usize::MAX), columns)?;
+    let dtype = header.dtype();
+    let (code, fields) = match &dtype {
+        DType::Record(fields) => (code_of_all(&dtype, fields)?, &fields[..]),
+        plain => (code(plain)?, &[][..]),
+    };
+    let (pairs, channels, is_interleaved) = layout(&header, fields.len(), columns.is_some())?;
+    let mut frame = Frame::choose(usize::try_from(channels).unwrap_or(usize::MAX), columns)?;
+    if let (None, [one, other]) = (columns, fields)
+        && are_swapped([&one.name, &other.name])
+    {
+        frame.chosen.reverse();
+    }
     if pairs == 0 {
         return Err(Fault::no_pairs());
     }
@@ -81,9 +90,18 @@ pub(super) fn open(
     Ok(Opened::of_samples("NPY of", code, source, Some(there)))
 }
 
-/// The numbers of pairs and channels, and whether the samples of a pair follow each other; two channels unless others `are_chosen`.
-fn layout(header: &NpyHeader, are_chosen: bool) -> Result<(u64, u64, bool), Fault> {
+/// The numbers of pairs and channels, and whether the samples of a pair follow each other, of an array of records of so many `fields` or, if
+/// there are none, of plain numbers; two channels unless others `are_chosen`.
+fn layout(header: &NpyHeader, fields: usize, are_chosen: bool) -> Result<(u64, u64, bool), Fault> {
     Ok(match (header.shape(), header.order()) {
+        (&[pairs], _) if fields == 2 || fields > 2 && are_chosen => (pairs, fields as u64, true),
+        (shape, _) if fields > 0 => {
+            return Err(Fault::new(format!(
+                "NPY header: the shape is {} of records of {fields} fields, but (N,) of two fields is needed; of more fields choose two, as \
+                 in --columns 2,3 if the first is the time, or save `numpy.stack([x['c'], x['d']], axis=1)`",
+                shown(shape)
+            )));
+        }
         (&[pairs, 2], order) => (pairs, 2, order == Order::C),
         (&[2, pairs], order) => (pairs, 2, order == Order::Fortran),
         // The longer side counts the samples: no recording has more channels.
@@ -155,17 +173,29 @@ fn header_text(stream: &mut Stream) -> Result<Vec<u8>, Fault> {
     Ok(text)
 }
 
+/// The fault of a type that is not read.
+fn refused(dtype: &DType) -> Fault {
+    Fault::new(format!(
+        "NPY header: the dtype is {}, but u1, i1, u2, i2, i4, f2, f4 or f8, or records of one of them, is needed; save \
+             `numpy.stack([c, d], axis=1).astype('f4')`",
+        dtype.descr()
+    ))
+}
+
+/// How all `fields` of a record of this type are stored, which must be alike.
+fn code_of_all(dtype: &DType, fields: &[Field]) -> Result<SampleCode, Fault> {
+    let codes: Option<Vec<SampleCode>> =
+        fields.iter().map(|field| code(&field.dtype).ok()).collect();
+    match codes.as_deref() {
+        Some([first, rest @ ..]) if rest.iter().all(|code| code == first) => Ok(*first),
+        _ => Err(refused(dtype)),
+    }
+}
+
 /// How samples of this number type are stored.
 fn code(dtype: &DType) -> Result<SampleCode, Fault> {
-    let refused = || {
-        Fault::new(format!(
-            "NPY header: the dtype is {}, but u1, i1, u2, i2, i4, f4 or f8 is needed; save \
-             `numpy.stack([c, d], axis=1).astype('f4')`",
-            dtype.descr()
-        ))
-    };
     let DType::Plain(plain) = dtype else {
-        return Err(refused());
+        return Err(refused(dtype));
     };
     let kind = match (plain.type_char(), plain.size_field()) {
         // Unsigned integers of 32 bits are refused: codes of up to 24 bits in them would lie too close to −1 for single precision.
@@ -174,9 +204,10 @@ fn code(dtype: &DType) -> Result<SampleCode, Fault> {
         (TypeChar::Int, 1) => Kind::I8,
         (TypeChar::Int, 2) => Kind::I16,
         (TypeChar::Int, 4) => Kind::I32,
+        (TypeChar::Float, 2) => Kind::F16,
         (TypeChar::Float, 4) => Kind::F32,
         (TypeChar::Float, 8) => Kind::F64,
-        _ => return Err(refused()),
+        _ => return Err(refused(dtype)),
     };
     Ok(SampleCode::new(kind).big_endian(plain.endianness() == Endianness::Big))
 }

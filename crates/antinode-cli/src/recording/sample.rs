@@ -3,6 +3,7 @@
 use clap::ValueEnum;
 
 use super::error::{CHANNELS, Fault};
+use half::f16;
 
 /// How one sample is stored: of raw ones little-endian, the channels in turn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -19,6 +20,8 @@ pub enum Kind {
     I24,
     /// 32-bit integers, full scale reads as 1.
     I32,
+    /// 16-bit floating point.
+    F16,
     /// 32-bit floating point.
     F32,
     /// 64-bit floating point.
@@ -70,7 +73,7 @@ impl SampleCode {
 
     /// The same for integers; none for floats.
     pub fn integers(self) -> Option<Self> {
-        (!matches!(self.kind, Kind::F32 | Kind::F64)).then_some(self)
+        (!matches!(self.kind, Kind::F16 | Kind::F32 | Kind::F64)).then_some(self)
     }
 
     /// The largest positive code of integers as it is decoded.
@@ -112,7 +115,7 @@ impl SampleCode {
         let kind = match self.kind {
             Kind::U8 | Kind::U16 => "unsigned integers",
             Kind::I8 | Kind::I16 | Kind::I24 | Kind::I32 => "integers",
-            Kind::F32 | Kind::F64 => "floats",
+            Kind::F16 | Kind::F32 | Kind::F64 => "floats",
         };
         format!("{}-bit {kind}", self.valid_bits)
     }
@@ -135,6 +138,8 @@ impl SampleCode {
             }),
             (Kind::I32, false) => push(bytes, pairs, |b| scale_32(i32::from_le_bytes(b))),
             (Kind::I32, true) => push(bytes, pairs, |b| scale_32(i32::from_be_bytes(b))),
+            (Kind::F16, false) => push(bytes, pairs, |b| f16::from_le_bytes(b).to_f32()),
+            (Kind::F16, true) => push(bytes, pairs, |b| f16::from_be_bytes(b).to_f32()),
             (Kind::F32, false) => push(bytes, pairs, f32::from_le_bytes),
             (Kind::F32, true) => push(bytes, pairs, f32::from_be_bytes),
             (Kind::F64, false) => push(bytes, pairs, |b| f64::from_le_bytes(b) as f32),
@@ -176,7 +181,7 @@ impl SampleCode {
 fn bytes(kind: Kind) -> usize {
     match kind {
         Kind::U8 | Kind::I8 => 1,
-        Kind::U16 | Kind::I16 => 2,
+        Kind::U16 | Kind::I16 | Kind::F16 => 2,
         Kind::I24 => 3,
         Kind::I32 | Kind::F32 => 4,
         Kind::F64 => 8,

@@ -113,7 +113,7 @@ fn options_that_make_no_sense_are_refused() {
             "--channels is only for raw samples, with --raw FORMAT; ",
         ),
         ("--columns a", "two (S_C, S_D) or three"),
-        ("--raw u32", "u8, i8, u16, i16, i24, i32, f32, f64"),
+        ("--raw u32", "u8, i8, u16, i16, i24, i32, f16, f32, f64"),
         ("--nonsense", "--nonsense"),
     ];
     for (arguments, told) in cases {

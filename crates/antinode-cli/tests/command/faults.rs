@@ -47,7 +47,7 @@ fn input_that_is_no_recording_is_refused() {
             "other.bin",
             &[
                 "other.bin: ",
-                "--raw u8, i8, u16, i16, i24, i32, f32 or f64",
+                "--raw u8, i8, u16, i16, i24, i32, f16, f32 or f64",
             ],
         ),
         (

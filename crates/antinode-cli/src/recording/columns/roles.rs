@@ -29,6 +29,11 @@ pub(in crate::recording) fn is_known(name: &str) -> bool {
     role(name).is_some()
 }
 
+/// Whether these names are those of S_D and S_C, in this order.
+pub(in crate::recording) fn are_swapped(names: [&str; 2]) -> bool {
+    names.map(role) == [Some(2), Some(1)]
+}
+
 /// Whether a name says that its column holds the time.
 pub(in crate::recording) fn is_time(name: &str) -> bool {
     role(name) == Some(TIME)

@@ -87,16 +87,16 @@ fn other_shapes_and_types_are_named() {
     for (descr, shown) in [
         ("'<i8'", "'<i8'"),
         ("'<u4'", "'<u4'"),
-        ("'<f2'", "'<f2'"),
+        ("'<f16'", "'<f16'"),
         ("'<c16'", "'<c16'"),
         ("'|O'", "'|O'"),
         (
-            "[('c', '<f4'), ('d', '<f4')]",
-            "[('c', '<f4'), ('d', '<f4'), ]",
+            "[('c', '<f4'), ('d', '<f8')]",
+            "[('c', '<f4'), ('d', '<f8'), ]",
         ),
     ] {
         let expected = format!(
-            "a.npy: NPY header: the dtype is {shown}, but u1, i1, u2, i2, i4, f4 or f8 is needed; save "
+            "a.npy: NPY header: the dtype is {shown}, but u1, i1, u2, i2, i4, f2, f4 or f8, or records of one of them, is needed; save "
         );
         assert!(
             fault(descr, "(3, 2)").starts_with(&expected),
@@ -248,7 +248,7 @@ fn what_numpy_writes_is_read() {
         "n.stack([c, d])",
         "n.asfortranarray(n.stack([c, d], 1))",
     ] {
-        for dtype in ["|u1", "|i1", "<u2", "<i2", ">i4", "<f4", ">f8"] {
+        for dtype in ["|u1", "|i1", "<u2", "<i2", ">i4", "<f2", "<f4", ">f8"] {
             let script = format!(
                 "import sys, numpy as n\n\
                  c = n.arange(50000) % 100 / 128; d = -c\n\

@@ -77,6 +77,7 @@ fn full_scale_is_the_largest_code() {
     );
     assert_eq!(code.integers(), Some(code));
     assert_eq!(SampleCode::new(Kind::F32).integers(), None);
+    assert_eq!(SampleCode::new(Kind::F16).integers(), None);
 }
 
 #[test]

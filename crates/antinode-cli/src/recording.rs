@@ -29,6 +29,7 @@ mod sample;
 mod sequence;
 mod signal_units;
 mod source;
+mod stamps;
 mod stated;
 mod text;
 mod time;

@@ -7,6 +7,7 @@ use super::columns::is_known;
 use super::foreign::{FEW_BYTES, Foreign};
 use super::number::is_number;
 use super::source::unmarked_utf_16;
+use super::stamps::is_stamp;
 use super::text::{MAX_LINE, fields, is_log_head, is_skipped, separator, without_mark};
 
 /// Bytes read at a time while a text's first line is looked for.
@@ -109,7 +110,8 @@ pub(super) fn has_control(bytes: &[u8]) -> bool {
 fn is_pair(line: &[u8]) -> bool {
     let separator = separator(line);
     let fields = || fields(line, separator).filter(|field| !field.is_empty());
-    fields().nth(1).is_some() && fields().all(|field| is_number(field, separator))
+    let is_told = |field| is_number(field, separator) || is_stamp(field);
+    fields().nth(1).is_some() && fields().all(is_told)
 }
 
 /// Whether a line is a CSV header, or numbers.
@@ -172,6 +174,8 @@ mod tests {
             "time;temperature;heat;c;d\n",
             "\u{feff}# a comment as long as you like, \n\n# one more\nt\tx\ty\r0\t1\t2\r",
             "2024-05-01T00:00:00,1,2\n",
+            "13:45:01.5 1 2\n",
+            "2026-11-28 13:45:01.5 1 2\n",
             "LabVIEW Measurement\t\nSeparator\tTab\n\n0.1\t0.2\t\n",
             // These begin as a Parquet file, a sound file and a waveform do.
             "PAR1,PAR2,PAR3\n1,2,3\n",

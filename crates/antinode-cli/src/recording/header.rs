@@ -11,6 +11,7 @@ use super::heading::is_header;
 use super::lines::{Beginning, Lines};
 use super::sequence::{Sequence, counted};
 use super::signal_units::is_known;
+use super::stamps::Stamped;
 use super::stated::Stated;
 use super::text::{fields, is_skipped};
 use super::units::are_units;
@@ -24,6 +25,8 @@ pub(super) struct Header {
     pub counter: Option<usize>,
     /// The power of ten of the time's unit in seconds: −3 for ms.
     pub exponent: i32,
+    /// What the time column is if it holds clock times, which have no unit.
+    pub stamp: Option<Stamped>,
     /// The times of the samples, if these are counted from a start in equal steps.
     pub sequence: Option<Sequence>,
     /// The sample rate that the lines above state.
@@ -72,6 +75,7 @@ impl Header {
             width: columns,
             may_be_timed: start.sequence.is_none() && (counted.is_none() || has_numbers),
             has_numbers,
+            stamped: (0..columns).find(|&place| lines.stamps.at(place).is_some()),
             clocks: clocks.iter().map(|clock| clock.place).collect(),
             start,
             is_of_rows: is_of_rows(first, next),
@@ -85,6 +89,7 @@ impl Header {
             places,
             counter: line.counter(places).filter(|_| chosen.is_none()),
             exponent: 0,
+            stamp: places[TIME].and_then(|place| lines.stamps.at(place)),
             sequence: sequence.filter(|_| places[TIME].is_none()),
             stated: *stated,
             divisors: [1.0; 2],

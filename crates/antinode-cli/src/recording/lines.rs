@@ -6,6 +6,7 @@ use super::Stream;
 use super::error::Fault;
 use super::preamble::{self, STEADY_LINES, Start};
 use super::quoted::{self, has_decimal_commas};
+use super::stamps::Stamps;
 use super::stated::Stated;
 use super::text::{self, MAX_LINE};
 
@@ -32,6 +33,8 @@ pub(super) struct Lines {
     pub separator: u8,
     /// Whether numbers are in quotes, with decimal commas.
     is_quoted: bool,
+    /// The columns of clock times, which are read as seconds.
+    pub stamps: Stamps,
     number: u64,
 }
 
@@ -42,7 +45,7 @@ impl Lines {
         let mut above = Vec::new();
         let (mut begun, line) = text::first_line(&mut stream, &mut above)?;
         // Reading these lines ahead delays no row of a pipe: each row needs at least as many lines.
-        let mut is_quoted = false;
+        let (mut is_quoted, mut stamps) = (false, Stamps::default());
         let mut start = loop {
             let next = text::next_lines(&mut stream, STEADY_LINES)?;
             begun.extend_from_slice(&next);
@@ -50,6 +53,10 @@ impl Lines {
             if is_quoted {
                 quoted::separate(&mut begun);
             }
+            if stamps.is_empty() {
+                stamps = Stamps::of(&begun);
+            }
+            stamps.convert(&mut begun);
             let is_all = next.iter().filter(|&&byte| byte == b'\n').count() < STEADY_LINES;
             if let Some(start) = preamble::find(&begun, is_all) {
                 break start;
@@ -78,6 +85,7 @@ impl Lines {
             rest: stream,
             line: Vec::new(),
             is_quoted,
+            stamps,
             number: line - 1 + beginning.start.lines as u64,
         };
         Ok((lines, beginning))
@@ -104,6 +112,7 @@ impl Lines {
             if self.is_quoted {
                 quoted::separate(&mut next);
             }
+            self.stamps.convert(&mut next);
             self.ahead.append(&mut next);
         }
         Ok(())
@@ -142,6 +151,7 @@ impl Lines {
             if self.is_quoted {
                 quoted::separate(&mut self.line);
             }
+            self.stamps.convert(&mut self.line);
             if !self.line().is_skipped() {
                 return Ok(true);
             }

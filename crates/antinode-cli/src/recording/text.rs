@@ -185,14 +185,19 @@ pub(super) fn fields(line: &[u8], separator: u8) -> impl Iterator<Item = &[u8]> 
 
 /// The same with an empty field behind a separator at the end.
 pub(super) fn all_fields(line: &[u8], separator: u8) -> impl Iterator<Item = &[u8]> {
+    let fields = raw_fields(line, separator).map(bare);
+    fields.filter(move |field| separator != b' ' || !field.is_empty())
+}
+
+/// All that stands between separators, with the blanks and quotes around it.
+pub(super) fn raw_fields(line: &[u8], separator: u8) -> impl Iterator<Item = &[u8]> {
     let mut rest = Some(line);
-    let fields = iter::from_fn(move || {
+    iter::from_fn(move || {
         let line = rest?;
         let end = field_end(line, separator);
         rest = line.get(end + 1..);
-        Some(bare(&line[..end]))
-    });
-    fields.filter(move |field| separator != b' ' || !field.is_empty())
+        Some(&line[..end])
+    })
 }
 
 /// Where the first field of a line ends. Separators within quotes belong to it, if the quotes enclose a whole field.

@@ -53,6 +53,7 @@ mod text_garbled;
 mod text_preambles;
 mod text_rigol;
 mod text_scopes;
+mod text_stamps;
 mod text_stated;
 mod text_time;
 mod text_titles;

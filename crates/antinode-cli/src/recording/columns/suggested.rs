@@ -104,6 +104,7 @@ impl FirstLine<'_> {
         let role = |place: usize| match place {
             0 if self.has_numbers => Some(TIME),
             _ if self.is_index_of_times(place) => Some(TIME),
+            _ if self.stamped == Some(place) => Some(TIME),
             _ => self.names.and_then(|names| role(&names[place])),
         };
         let places = || columns.iter().copied();

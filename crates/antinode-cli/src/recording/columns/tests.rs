@@ -3,6 +3,15 @@
 use super::*;
 
 fn places(header: &str, chosen: Option<&str>) -> Result<Places, String> {
+    stamped_places(header, chosen, None)
+}
+
+/// The same where a column holds clock times.
+fn stamped_places(
+    header: &str,
+    chosen: Option<&str>,
+    stamped: Option<usize>,
+) -> Result<Places, String> {
     let names: Vec<String> = header
         .split(',')
         .map(|name| name.trim().to_owned())
@@ -13,6 +22,7 @@ fn places(header: &str, chosen: Option<&str>) -> Result<Places, String> {
         width: names.len(),
         may_be_timed: true,
         has_numbers: false,
+        stamped,
         clocks: vec![0, 2],
         start: &Start::default(),
         is_of_rows: false,
@@ -45,6 +55,15 @@ fn names_decide_and_else_the_order() {
         assert_eq!(places(&header, None), Ok([None, Some(1), Some(2)]));
     }
     assert_eq!(places("t,heat,c,d", None), Ok([Some(0), Some(2), Some(3)]));
+}
+
+#[test]
+fn a_column_of_clock_times_is_the_time_whatever_its_name() {
+    let last = |header| stamped_places(header, None, Some(2));
+    assert_eq!(last("x,y,when"), Ok([Some(2), Some(0), Some(1)]));
+    assert_eq!(last("c,d,when,heat"), Ok([Some(2), Some(0), Some(1)]));
+    let chosen = stamped_places("x,y,when", Some("1,2"), Some(2));
+    assert_eq!(chosen, Ok([None, Some(0), Some(1)]));
 }
 
 #[test]

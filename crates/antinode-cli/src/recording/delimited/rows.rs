@@ -14,6 +14,7 @@ use super::super::no_number::{meant, stand_in};
 use super::super::not_finite::Flaw;
 use super::super::number::number;
 use super::super::printed::Printed;
+use super::super::stamps::DAY;
 use super::super::time::TimeAxis;
 use super::super::wrapped::Wrapped;
 use super::fields::{Cut, missing, place};
@@ -65,12 +66,16 @@ impl Rows {
     pub fn open(stream: Stream, chosen: Option<&Columns>) -> Result<Self, Fault> {
         let (mut lines, beginning) = Lines::open(stream)?;
         let header = Header::read(&mut lines, &beginning, chosen)?;
+        let wrapped = match header.stamp {
+            Some(stamp) if !stamp.has_date => Wrapped::after(DAY.into()),
+            _ => Wrapped::default(),
+        };
         Ok(Self {
             lines,
             header,
             printed: Printed::default(),
             origin: Origin::default(),
-            wrapped: Wrapped::default(),
+            wrapped,
             axis: None,
             not_finite: None,
             left_out: LeftOut::default(),
@@ -235,7 +240,7 @@ impl Rows {
         let may_be_left_out = role == TIME || self.lines.separator != b'\t';
         let told = match (role, remedy(&text, may_be_left_out)) {
             (TIME, None) => self.header.or_ignore_time(&format!(
-                "the time is `{text}`, not a finite number; give it in seconds, delete the line, or begin it with # if it is a comment"
+                "the time is `{text}`, not a finite number; give it in seconds or as 2026-11-28T13:45:01.5, delete the line, or begin it with # if it is a comment"
             )),
             (role, remedy) => format!(
                 "{} is `{text}`, not a number; {}",

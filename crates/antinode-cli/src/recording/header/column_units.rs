@@ -129,6 +129,7 @@ impl Header {
     /// Sets the time's unit; false if it is no unit of time. `name` stands for it in an error.
     fn set_unit(&mut self, line: u64, unit: &str, name: &str) -> Result<bool, Fault> {
         match time_exponent(unit) {
+            _ if self.stamp.is_some() => Ok(true),
             None => Ok(false),
             Some(Some(exponent)) => {
                 self.exponent = exponent;
@@ -163,6 +164,7 @@ impl Header {
                 self.sequence.is_some()
                     || unit.is_empty()
                     || time_exponent(unit).is_some()
+                    || self.stamp.is_some()
                     || are_bracketed
             })?,
             None => "",

@@ -177,7 +177,7 @@ fn header_text(stream: &mut Stream) -> Result<Vec<u8>, Fault> {
 fn refused(dtype: &DType) -> Fault {
     Fault::new(format!(
         "NPY header: the dtype is {}, but u1, i1, u2, i2, i4, f2, f4 or f8, or records of one of them, is needed; save \
-             `numpy.stack([c, d], axis=1).astype('f4')`",
+         `numpy.stack([c, d], axis=1).astype('f4')`",
         dtype.descr()
     ))
 }

@@ -79,8 +79,8 @@ pub(super) struct FirstLine<'a> {
     pub may_be_timed: bool,
     /// True if the first column numbers the samples, which stands for the time.
     pub has_numbers: bool,
-    /// The first column of clock times.
-    pub stamped: Option<usize>,
+    /// The columns of clock times.
+    pub stamped: Vec<usize>,
     /// The columns that go up as times do.
     pub clocks: Vec<usize>,
     /// What was found in the lines above and below.

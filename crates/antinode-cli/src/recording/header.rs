@@ -75,7 +75,9 @@ impl Header {
             width: columns,
             may_be_timed: start.sequence.is_none() && (counted.is_none() || has_numbers),
             has_numbers,
-            stamped: (0..columns).find(|&place| lines.stamps.at(place).is_some()),
+            stamped: (0..columns)
+                .filter(|&place| lines.stamps.at(place).is_some())
+                .collect(),
             clocks: clocks.iter().map(|clock| clock.place).collect(),
             start,
             is_of_rows: is_of_rows(first, next),

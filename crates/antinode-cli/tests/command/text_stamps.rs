@@ -1,6 +1,8 @@
 //! `antinode identify` on text whose time column holds clock times.
 
-use crate::common::{Row, WAVE, fault, no_rows, printed, rows_of, run_with, same_later, text};
+use crate::common::{
+    RATE, Row, WAVE, fault, no_rows, printed, rows_of, run_with, same_later, text,
+};
 
 /// The seconds from midnight to 13:45:01, from 1970 to that clock on 28 November 2026, and in a day.
 const CLOCK: u64 = 49_501;
@@ -82,6 +84,20 @@ fn clock_times_are_as_good_as_seconds() {
         same_later(&rows_of(here, &text, ""), &expected, CLOCK as f64);
         let run = run_with(here, "identify --output csv -", text.into_bytes());
         same_later(&Row::all(&run.out), &expected, CLOCK as f64);
+    }
+}
+
+#[test]
+fn a_clock_beside_a_time_is_not_used() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let expected = rows_of(here, &text(&WAVE.codes(5000)), "");
+    // Once a second, it shows no rate.
+    for header in ["", "Date,Time,c,d\n", "when,Time (s),x,y\n"] {
+        let text = timed(header, |k, [c, d]| {
+            format!("{},{:.5},{c},{d}", clock(CLOCK, k).0, k as f64 / RATE)
+        });
+        same_later(&rows_of(here, &text, ""), &expected, 0.0);
     }
 }
 

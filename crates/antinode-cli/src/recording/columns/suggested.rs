@@ -32,6 +32,10 @@ impl FirstLine<'_> {
             .copied()
             .filter(|&place| place < self.width)
             .collect();
+        // A clock beside numbers that may be a time and both signals is one column more.
+        let is_plain = |place: &usize| !self.stamped.contains(place);
+        let plain: Vec<usize> = numbers.iter().copied().filter(is_plain).collect();
+        let numbers = if plain.len() > 2 { plain } else { numbers };
         // Beside the samples there may be settings, and other columns without numbers.
         let is_partial = !numbers.is_empty() && numbers.len() < self.width;
         if is_partial && self.start.lines > 0 {
@@ -104,7 +108,6 @@ impl FirstLine<'_> {
         let role = |place: usize| match place {
             0 if self.has_numbers => Some(TIME),
             _ if self.is_index_of_times(place) => Some(TIME),
-            _ if self.stamped == Some(place) => Some(TIME),
             _ => self.names.and_then(|names| role(&names[place])),
         };
         let places = || columns.iter().copied();
@@ -134,13 +137,18 @@ impl FirstLine<'_> {
                         && self.names.is_none()
                         && (is_instrument && self.start.is_clocked || self.start.is_surely_clocked))
         });
-        let time = time.or(self.timed(columns)).or(clock);
+        let is_stamped = |place: &usize| self.stamped.contains(place);
+        let time = time
+            .or(self.timed(columns))
+            .or(places().find(is_stamped))
+            .or(clock);
         // `#,Time(ms),CH1(mV),CH2(mV)`, or `Sample,ADC1,ADC2`.
         let count = first.filter(|&first| {
             let is_beside_time = time.is_some() && time == columns.get(1).copied();
             is_count(first) && (is_beside_time || time.is_none() && columns.len() == 3)
         });
-        let mut signals = places().filter(|&place| Some(place) != time && Some(place) != count);
+        let is_other = |place: &usize| [time, count].contains(&Some(*place)) || is_stamped(place);
+        let mut signals = places().filter(|place| !is_other(place));
         match (signals.next(), signals.next(), signals.next()) {
             (Some(c), Some(d), None) => Ok([time, Some(c), Some(d)]),
             (Some(_), None, None) if time.is_some() => Err(ONE_SIGNAL.to_owned()),

@@ -3,15 +3,11 @@
 use super::*;
 
 fn places(header: &str, chosen: Option<&str>) -> Result<Places, String> {
-    stamped_places(header, chosen, None)
+    stamped_places(header, chosen, &[])
 }
 
 /// The same where a column holds clock times.
-fn stamped_places(
-    header: &str,
-    chosen: Option<&str>,
-    stamped: Option<usize>,
-) -> Result<Places, String> {
+fn stamped_places(header: &str, chosen: Option<&str>, stamped: &[usize]) -> Result<Places, String> {
     let names: Vec<String> = header
         .split(',')
         .map(|name| name.trim().to_owned())
@@ -22,7 +18,7 @@ fn stamped_places(
         width: names.len(),
         may_be_timed: true,
         has_numbers: false,
-        stamped,
+        stamped: stamped.to_vec(),
         clocks: vec![0, 2],
         start: &Start::default(),
         is_of_rows: false,
@@ -58,11 +54,24 @@ fn names_decide_and_else_the_order() {
 }
 
 #[test]
-fn a_column_of_clock_times_is_the_time_whatever_its_name() {
-    let last = |header| stamped_places(header, None, Some(2));
-    assert_eq!(last("x,y,when"), Ok([Some(2), Some(0), Some(1)]));
-    assert_eq!(last("c,d,when,heat"), Ok([Some(2), Some(0), Some(1)]));
-    let chosen = stamped_places("x,y,when", Some("1,2"), Some(2));
+fn a_column_of_clock_times_is_the_time_unless_another_is() {
+    for (header, stamped, expected) in [
+        ("x,y,when", &[2][..], [Some(2), Some(0), Some(1)]),
+        ("c,d,when", &[2], [Some(2), Some(0), Some(1)]),
+        ("n,when,x,y", &[1], [Some(1), Some(2), Some(3)]),
+        ("when,then,x,y", &[0, 1], [Some(0), Some(2), Some(3)]),
+        ("when,t,x,y", &[0], [Some(1), Some(2), Some(3)]),
+        ("when,since [s],x,y", &[0], [Some(1), Some(2), Some(3)]),
+        // As without a clock.
+        ("when,c,d,heat", &[0], [None, Some(1), Some(2)]),
+    ] {
+        assert_eq!(
+            stamped_places(header, None, stamped),
+            Ok(expected),
+            "{header}"
+        );
+    }
+    let chosen = stamped_places("x,y,when", Some("1,2"), &[2]);
     assert_eq!(chosen, Ok([None, Some(0), Some(1)]));
 }
 

@@ -109,12 +109,11 @@ impl Thirds {
     #[inline(never)]
     pub(super) fn conclude(&self, model: &Model, remains: &mut Remains) {
         let (amplitude, power) = Self::scales(model);
-        let watched = f32::from(self.watched.max(1));
+        let watched = f32::from(self.watched);
         let freedom = 4.0 * (watched - 1.0);
         // A single division: the inverse of the product gives both inverses.
-        let least = greater(freedom, 1.0);
-        let per_both = 1.0 / (watched * least);
-        let per_count = least * per_both;
+        let per_both = 1.0 / (watched * freedom);
+        let per_count = freedom * per_both;
         let squares = self.sum.map(|sum| sum.norm_sqr() * per_count);
         let incoherent = greater(self.power - (squares[0] + squares[1]), 0.0);
         let per_freedom = watched * per_both;

@@ -56,13 +56,13 @@ impl Thirds {
         // The sum over all blocks of the phase of one line against the other.
         let against = Line::Third.turn(model.turn) * self.line.turn(model.turn).conj();
         let (mut mixed, mut unit) = (Complex32::ZERO, Complex32::ONE);
-        for _ in 0..thirds.watched {
+        for _ in 0..model.blocks {
             mixed += unit;
             unit *= against;
         }
-        let count = f32::from(thirds.watched);
+        let count = f32::from(model.blocks);
         let determinant = count * count - mixed.norm_sqr();
-        if thirds.watched < MIN_BLOCKS || determinant < MIN_DETERMINANT * count * count {
+        if model.blocks < MIN_BLOCKS || determinant < MIN_DETERMINANT * count * count {
             return;
         }
         let (amplitude, power) = Self::scales(model);

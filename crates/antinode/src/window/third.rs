@@ -42,7 +42,6 @@ pub(super) struct Thirds {
     pub power: f32,
     /// The largest share of a block in `power`.
     worst: f32,
-    pub watched: u16,
     pub line: Line,
 }
 
@@ -56,7 +55,6 @@ impl Thirds {
             sum: [Complex32::ZERO; 2],
             power: 0.0,
             worst: 0.0,
-            watched: 0,
             line,
         }
     }
@@ -100,7 +98,6 @@ impl Thirds {
                 thirds.power += rest.norm_sqr();
             }
             thirds.worst = greater(thirds.power - before, thirds.worst);
-            thirds.watched += 1;
         }
         *self = thirds;
     }
@@ -109,7 +106,8 @@ impl Thirds {
     #[inline(never)]
     pub(super) fn conclude(&self, model: &Model, remains: &mut Remains) {
         let (amplitude, power) = Self::scales(model);
-        let watched = f32::from(self.watched);
+        // In a window all blocks are watched, or none is.
+        let watched = f32::from(model.blocks);
         let freedom = 4.0 * (watched - 1.0);
         // A single division: the inverse of the product gives both inverses.
         let per_both = 1.0 / (watched * freedom);

@@ -100,10 +100,9 @@ pub(crate) fn within(
     let significant = is_significant(wave);
     flags = flags.with_if(!significant, Flags::LOST);
 
-    let is_noise_known = noise.freedom > 0.0;
     // White noise is the same about the carrier and about the third harmonic. A first window has nothing else to be compared with, and a
     // fault in one block may raise both: leaving out the worst of n blocks makes chance at most n times as likely.
-    let (about_third, sigmas) = if is_noise_known {
+    let (about_third, sigmas) = if noise.freedom > 0.0 {
         (remains.third_noise, NOISE_SIGMAS)
     } else {
         let least = lesser(remains.third_noise, remains.third_without_worst);
@@ -121,9 +120,9 @@ pub(crate) fn within(
     // Blocks of a few samples have more sums than samples: there are no more degrees of freedom than samples of both pick-offs, less ten
     // unknowns.
     let wide_freedom = lesser(total_freedom, 4.0 * model.half - 10.0);
-    let louder = is_noise_known
-        && (noise.is_exceeded(own, remains.freedom, floor)
-            || is_louder(wide - floor, noise.wide, wide_freedom, noise.freedom));
+    // Neither is true if no noise is known.
+    let louder = noise.is_exceeded(own, remains.freedom, floor)
+        || is_louder(wide - floor, noise.wide, wide_freedom, noise.freedom);
     // Compares a part of the residual with the noise of the windows before, or with the rest of the residual if that is known better.
     let stands_out = |part: f32, degrees: f32, floor: f32| {
         let (rest, beyond) = (remains.freedom - degrees, part - floor);

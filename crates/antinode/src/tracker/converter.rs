@@ -230,15 +230,9 @@ pub(super) fn are_all_beyond(blocks: &[Seen], fit: &Fit, margin: f32) -> bool {
 #[inline(never)]
 fn is_beyond(fit: &Fit, i: usize, [low, high]: [f32; 2], margin: f32, hum: f32) -> bool {
     let offset = fit.offsets[i & 1];
-    let (rest, reach) = (
-        greater(high - offset, offset - low) - margin,
-        fit.reach[i & 1],
-    );
-    if rest <= 0.0 || rest * rest <= reach {
-        return false;
-    }
-    let rest = rest - hum * square_root(fit.remains.wander[i & 1]);
-    rest > 0.0 && rest * rest > reach
+    let wander = square_root(fit.remains.wander[i & 1]);
+    let rest = greater(high - offset, offset - low) - margin - hum * wander;
+    rest > 0.0 && rest * rest > fit.reach[i & 1]
 }
 
 #[cfg(test)]

@@ -74,15 +74,12 @@ struct Inverse {
 }
 
 impl Inverse {
-    /// Inverse of the matrix with entries (0,0), (0,1), (1,1); `None` if it is nearly singular.
-    fn new([a, b, d]: [f32; 3]) -> Option<Self> {
-        let determinant = a * d - b * b;
-        (determinant > 1e-5 * a * d).then(|| {
-            let scale = 1.0 / determinant;
-            Self {
-                entries: [d * scale, -b * scale, a * scale],
-            }
-        })
+    /// Inverse of the matrix with entries (0,0), (0,1), (1,1).
+    fn new([a, b, d]: [f32; 3]) -> Self {
+        let scale = 1.0 / (a * d - b * b);
+        Self {
+            entries: [d * scale, -b * scale, a * scale],
+        }
     }
 
     #[inline(always)]
@@ -202,27 +199,27 @@ impl Trial {
         self.sums = sums;
     }
 
-    /// Coefficients of both pick-offs; `None` if the stretch does not determine them.
-    fn parameters(&self) -> Option<[[f32; 5]; 2]> {
+    /// Coefficients of both pick-offs: a stretch of two periods or more determines them.
+    fn parameters(&self) -> [[f32; 5]; 2] {
         let [cc, cus, usus, c1, us1] = self.sums.even;
         let n = self.length as f32;
         let per_sample = 1.0 / n;
         // From cos² + sin² = 1, and Σ u² = (n² − 1)/3n.
-        let odd = Inverse::new([n - cc, cus, (n - per_sample) / 3.0 - usus])?;
+        let odd = Inverse::new([n - cc, cus, (n - per_sample) / 3.0 - usus]);
         // With the offset eliminated, the even columns are two as well.
         let (mean_c, mean_us) = (c1 * per_sample, us1 * per_sample);
-        let even = Inverse::new([cc - c1 * mean_c, cus - c1 * mean_us, usus - us1 * mean_us])?;
-        Some(self.sums.gradient.map(|[c, s, uc, us, sum]| {
+        let even = Inverse::new([cc - c1 * mean_c, cus - c1 * mean_us, usus - us1 * mean_us]);
+        self.sums.gradient.map(|[c, s, uc, us, sum]| {
             let [x_s, x_uc] = odd.solve([s, uc]);
             let [x_c, x_us] = even.solve([c - mean_c * sum, us - mean_us * sum]);
             let offset = per_sample * sum - mean_c * x_c - mean_us * x_us;
             [x_c, x_s, x_uc, x_us, offset]
-        }))
+        })
     }
 
     /// The wave, if the completed stretch holds one. Its residual is taken to be at least `rounding` in power per pair.
     pub(crate) fn fitted(&self, rounding: f32) -> Option<Fitted> {
-        let parameters = self.parameters()?;
+        let parameters = self.parameters();
         let n = self.length as f32;
         let mut explained = 0.0;
         let mut turned = 0.0;

@@ -175,7 +175,12 @@ fn quick_turning_and_decay_in_little_noise_are_not_taken_for_clipping() {
 
 #[test]
 fn overlapping_windows_state_larger_deviations_at_the_start_and_after_a_fault() {
-    for (periods, hop, rate, noise) in [(10, 5, 0.5, 0.001), (50, 20, 0.1, 0.005)] {
+    // The third pattern turns by a tenth of a radian a window: taken to be at rest, it would have a frequency off by many deviations.
+    for (periods, hop, rate, noise) in [
+        (10, 5, 0.5, 0.001),
+        (50, 20, 0.1, 0.005),
+        (10, 5, 50.0, 0.001),
+    ] {
         let settings = Settings {
             hop: Some(hop),
             ..windows(periods)
@@ -209,6 +214,30 @@ fn overlapping_windows_state_larger_deviations_at_the_start_and_after_a_fault() 
             );
         }
     }
+}
+
+#[test]
+fn angles_from_before_a_step_do_not_tell_the_rate_behind_it() {
+    let mut behind = [(); 5].map(|()| StatedRatio::default());
+    for seed in 0..200 {
+        let wave = turning(seed, 5332.0, 0.7, 53.0);
+        let at = 4000 + 7 * seed as usize % 188;
+        let flaws = noisy(&wave, 0.01);
+        let found = identify_changed(wave, &flaws, windows(10), 6000, seed, |k, [c, d]| {
+            let (sine, cosine) = if k < at { 0.0f64 } else { 0.4 }.sin_cos();
+            [c * cosine - d * sine, c * sine + d * cosine]
+        });
+        let is_behind = |e: &&Estimate| e.start >= at as u64 && e.flags.is_empty();
+        for (honesty, estimate) in behind.iter_mut().zip(found.iter().filter(is_behind)) {
+            honesty.add(estimate, &wave);
+        }
+    }
+    let ratios = behind.map(|windows| windows.ratios()[3]);
+    println!("windows after a step of 0.2 rad: frequency {ratios:.2?} of stated");
+    assert!(
+        ratios.iter().all(|ratio| (0.85..1.15).contains(ratio)),
+        "{ratios:?}"
+    );
 }
 
 #[test]

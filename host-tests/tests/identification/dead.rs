@@ -212,3 +212,37 @@ fn a_wave_that_ends_in_a_constant_code_leaves_numbers() {
     }
     assert!(lost > 2000, "{lost}");
 }
+
+#[test]
+fn a_pick_off_that_had_nearly_all_of_the_wave_stays_flagged_when_it_dies() {
+    for seed in 0..20 {
+        // What D keeps is a fifth of a_A: little of the wave, but no reason to search for another.
+        let wave = Wave {
+            main_amplitude: 1.0,
+            quadrature_amplitude: 0.0,
+            angle: 0.5 * 0.2f64.asin(),
+            phase: 0.3 * seed as f64,
+            ..Wave::default()
+        };
+        let silence = Wave {
+            main_amplitude: 1e-9,
+            ..wave
+        };
+        let flaws = Flaws::white(1e-3);
+        let at = 30 * 190 + 9 * seed as usize;
+        let mut pairs = stream(wave, flaws.clone(), 90 * 190, seed);
+        let silent = stream(silence, flaws, 90 * 190, seed + 1000);
+        for (pair, [c, _]) in pairs.iter_mut().zip(silent).skip(at) {
+            pair[0] = c;
+        }
+        let mut core = Core::new(Settings::new(RATE)).unwrap();
+        let mut dead = 0;
+        core.extend(&pairs, |estimate| {
+            if estimate.start as usize >= at {
+                dead += 1;
+                assert!(estimate.flags.contains(Flags::DEAD_CHANNEL), "{estimate:?}");
+            }
+        });
+        assert!(dead > 50, "{dead}");
+    }
+}

@@ -276,6 +276,16 @@ mod tests {
             assert_eq!(flags(&fit([1e-2, 1e-4]), &mut noise), Flags::MISFIT);
         }
         assert!(noise.freedom > 0.0);
+        // Nor is it a level if one block has nearly all of it, or one step explains it.
+        let mut faulty = [(); 2].map(|()| fit([1e-2; 2]));
+        faulty[0].remains.worst_block = 0.998 * faulty[0].remains.residual;
+        faulty[1].remains.step = 0.998 * faulty[1].remains.residual;
+        for fit in faulty {
+            for _ in 0..10 {
+                assert_eq!(flags(&fit, &mut noise), Flags::MISFIT);
+            }
+            assert!(noise.freedom > 0.0);
+        }
         for i in 0..6 {
             let is_new = i < Noise::NEW_LEVEL;
             let expected = Flags::empty().with_if(is_new, Flags::MISFIT);

@@ -10,6 +10,8 @@ use crate::clocks::HSI_MHZ;
 
 /// Longest wait for the supply, ms; the device then starts in any case.
 const RISE_MS: u32 = 200;
+/// Turns of `delay`'s loop in a millisecond: it takes three cycles a turn.
+const TURNS_PER_MS: u32 = 1000 * HSI_MHZ / 3;
 
 /// Starts the detector and waits for the supply, before the clock is raised; false if it stays low.
 ///
@@ -24,7 +26,7 @@ pub fn start(rcc: &RCC, power: &PWR, lines: &EXTI, watchdog: &mut Watchdog) -> b
         .cr()
         .modify(|_, w| w.pls().set(0b110).pvde().set_bit());
     let is_high = (0..RISE_MS).any(|_| {
-        cortex_m::asm::delay(1000 * HSI_MHZ);
+        cortex_m::asm::delay(TURNS_PER_MS);
         watchdog.feed();
         // CSR.PVDO: low.
         power.csr().read().pvdo().bit_is_clear()

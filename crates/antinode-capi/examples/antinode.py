@@ -9,7 +9,7 @@
 
 The command `antinode identify` takes the converter's step and rails from the format of a recording; here give `resolution`, `rail_low` and
 `rail_high`, such as 1/32768 and ±32767/32768 for 16 bits. A window has at most 50 periods, and a period at most 200 samples. Samples are
-taken in single precision, and no wave is searched for that has an offset of more than 100 times its amplitude: subtract a constant then.
+taken in single precision, and a wave with an offset of more than 400 times its amplitude may not be found: subtract a constant then.
 One thread at a time may use a Gyro, since calls let other threads run.
 
 Needs numpy and the shared library. On Linux `crates/antinode-capi/install PREFIX` installs both, this file in PREFIX/share/antinode, where

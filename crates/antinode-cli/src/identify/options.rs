@@ -25,7 +25,7 @@ pub struct Identify {
     /// Recordings: WAV (left S_C, right S_D), CSV, NPY, told apart by their content; `-` is standard input.
     ///
     /// Integers are scaled so that full scale is 1; mid-scale of unsigned ones is 0. Codes from 0 to 4095 in 16 bits are then a wave about
-    /// an offset, which does no harm, unless the wave is smaller than 70 codes: store such codes as signed integers.
+    /// an offset, which does no harm, unless the wave is smaller than 70 codes and so may not be found: store such codes as signed integers.
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
     /// Sample rate, Hz, 1 to 1e10 [default: the recording's own].

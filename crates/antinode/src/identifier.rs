@@ -99,17 +99,19 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
         self.tracker.settings()
     }
 
-    /// Changes all settings but the start angle, and searches anew: the first window from then on is flagged
+    /// Changes all settings but the start angle, and [searches](Self::search) anew: the first window from then on is flagged
     /// [`Flags::REACQUIRED`](crate::Flags::REACQUIRED) and continues the angle. [`configure`](Self::configure) begins with the start angle
-    /// instead.
+    /// instead, and must come first after [`UNSET`](Self::UNSET): otherwise the angle begins at 0.
     ///
     /// # Errors
     ///
     /// Those of [`Identifier::new`]; nothing is changed then.
     pub fn change(&mut self, settings: Settings) -> Result<(), SettingsError> {
         Self::check(&settings)?;
+        self.tracker.search();
         self.tracker.change(settings)?;
         self.front.set(&settings);
+        self.search_if_wanted();
         Ok(())
     }
 
@@ -197,7 +199,8 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
         self.front.is_searching()
     }
 
-    /// True from the first window that shows a wave to the first that shows none, as [`Tracker::has_wave`].
+    /// True from the first window that shows a wave to the first that shows none, or to [`search`](Self::search),
+    /// [`change`](Self::change) or [`configure`](Self::configure), as [`Tracker::has_wave`].
     pub fn has_wave(&self) -> bool {
         self.tracker.has_wave()
     }

@@ -186,9 +186,8 @@ fn a_search_or_a_change_of_settings_continues_the_angle() {
             2 => core.change(windows(20)).unwrap(),
             _ => {}
         }
-        // Other settings do not move the wave.
-        assert_eq!(core.has_wave(), part == 2);
-        assert!(core.is_searching());
+        // A search may find that the wave has gone.
+        assert!(!core.has_wave() && core.is_searching(), "part {part}");
         core.extend(half_buffer, |estimate| found.push((part, estimate)));
         assert!(core.has_wave() && !core.is_searching());
     }

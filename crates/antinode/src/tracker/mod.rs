@@ -133,8 +133,9 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
         self.tracking.search();
     }
 
-    /// True from the first window that shows a wave to the first that shows none. If the frequency is known, but the wave is at another or
-    /// there is none, no estimate, flag or search tells of it; only this stays false.
+    /// True from the first window that shows a wave to the first that shows none, or to [`search`](Self::search) or
+    /// [`configure`](Self::configure). If the frequency is known, but the wave is at another or there is none, no estimate, flag or search
+    /// tells of it; only this stays false.
     pub fn has_wave(&self) -> bool {
         self.tracking.found
     }

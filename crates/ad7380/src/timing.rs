@@ -26,8 +26,8 @@ pub(crate) const RESET_US: u32 = 10;
 
 /// The shortest time from one falling edge of CS to the next, nanoseconds, rounded up.
 ///
-/// It is that of the frame's clocks and [`CS_HIGH_NS`], or of the conversions if they take longer. `None` if `sclk_hz` is 0 or above
-/// [`MAX_SCLK_HZ`].
+/// It is that of the frame's clocks and [`CS_HIGH_NS`], or of the conversions if they take longer; `u32::MAX`, 4.3 s, if it is longer than
+/// that, as with clocks of 1 to 7 Hz, or 9 Hz with resolution boost. `None` if `sclk_hz` is 0 or above [`MAX_SCLK_HZ`].
 ///
 /// ```
 /// use ad7380::{Oversampling, timing::min_frame_ns};
@@ -46,7 +46,6 @@ pub const fn min_frame_ns(sclk_hz: u32, oversampling: Oversampling) -> Option<u3
     } else {
         converting
     };
-    // With a clock of a few hertz a frame takes more than the 4.3 s that fit.
     Some(if frame > u32::MAX as u64 {
         u32::MAX
     } else {
@@ -54,17 +53,27 @@ pub const fn min_frame_ns(sclk_hz: u32, oversampling: Oversampling) -> Option<u3
     })
 }
 
-/// The largest rate of pairs with an SPI clock, Hz, rounded down. `None` as in [`min_frame_ns`].
+/// The largest rate of pairs with an SPI clock, Hz, rounded down: with the clock of [`min_sclk_hz`], at least the rate that it was asked
+/// for. 0 if no whole number of pairs a second is possible. `None` as in [`min_frame_ns`].
 ///
 /// ```
 /// use ad7380::{Oversampling, timing::max_pair_rate_hz};
 /// assert_eq!(max_pair_rate_hz(80_000_000, Oversampling::Off), Some(2_439_024));
 /// ```
 pub const fn max_pair_rate_hz(sclk_hz: u32, oversampling: Oversampling) -> Option<u32> {
-    match min_frame_ns(sclk_hz, oversampling) {
-        Some(frame) => Some(1_000_000_000 / frame),
-        None => None,
+    if sclk_hz == 0 || sclk_hz > MAX_SCLK_HZ {
+        return None;
     }
+    // Not from the frame's time, which is rounded; multiplied by the clock · 1e9, all numbers are integers.
+    let clocks = frame_clocks(oversampling) as u64;
+    let frame = clocks * 1_000_000_000 + CS_HIGH_NS as u64 * sclk_hz as u64;
+    let shifting = sclk_hz as u64 * 1_000_000_000 / frame;
+    let converting = 1_000_000_000 / oversampling.conversion_ns() as u64;
+    Some(if shifting < converting {
+        shifting
+    } else {
+        converting
+    } as u32)
 }
 
 /// The smallest SPI clock that serves a rate of pairs, Hz, rounded up.

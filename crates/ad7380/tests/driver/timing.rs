@@ -20,8 +20,12 @@ fn a_frame_takes_its_clocks_and_the_pulse_of_cs() {
         boost: true,
     };
     assert_eq!(min_frame_ns(80_000_000, boosted), Some(500 + 10));
-    // 32 s.
-    assert_eq!(min_frame_ns(1, Oversampling::Off), Some(u32::MAX));
+    // 32 / 7 Hz and 40 / 9 Hz are more than 4.29 s.
+    for (oversampling, longest, shorter) in [(Oversampling::Off, 7, 8), (boosted, 9, 10)] {
+        assert_eq!(min_frame_ns(1, oversampling), Some(u32::MAX));
+        assert_eq!(min_frame_ns(longest, oversampling), Some(u32::MAX));
+        assert_eq!(min_frame_ns(shorter, oversampling), Some(4_000_000_010));
+    }
     assert_eq!(min_frame_ns(0, Oversampling::Off), None);
     assert_eq!(min_frame_ns(80_000_001, Oversampling::Off), None);
     assert_eq!(max_pair_rate_hz(0, Oversampling::Off), None);
@@ -76,4 +80,24 @@ fn the_smallest_clock_serves_its_rate_and_one_hertz_less_does_not() {
     };
     assert!(min_sclk_hz(32_247, slow).is_some());
     assert_eq!(min_sclk_hz(32_248, slow), None);
+}
+
+#[test]
+fn the_smallest_clock_for_a_rate_allows_it_and_one_hertz_less_does_not() {
+    let boosted = Oversampling::Rolling {
+        ratio: RollingRatio::X2,
+        boost: true,
+    };
+    for (oversampling, rates) in [
+        (Oversampling::Off, 1..=2_439_024),
+        (boosted, 1..=1_960_784),
+    ] {
+        for rate in rates {
+            let sclk = min_sclk_hz(rate, oversampling).unwrap();
+            let allowed = |sclk| max_pair_rate_hz(sclk, oversampling).unwrap();
+            assert!(allowed(sclk) >= rate, "{rate} Hz: {sclk} Hz");
+            assert!(allowed(sclk - 1) < rate, "{rate} Hz: {sclk} Hz");
+        }
+    }
+    assert_eq!(max_pair_rate_hz(31, Oversampling::Off), Some(0));
 }

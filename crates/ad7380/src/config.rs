@@ -2,7 +2,10 @@
 
 use crate::alert::Thresholds;
 use crate::register::{ALERT_ENABLE, BOOST, EXTERNAL_REFERENCE, RATIO_SHIFT, ROLLING};
-use crate::timing::{CONVERSION_NS, FIRST_OVERSAMPLE_NS, NEXT_OVERSAMPLE_NS};
+use crate::timing::{
+    CONVERSION_NS, FIRST_OVERSAMPLE_NS, NEXT_OVERSAMPLE_NS, POWER_UP_EXTERNAL_MS,
+    POWER_UP_INTERNAL_MS,
+};
 
 /// Settings of the chip. The defaults are those after a reset, except for 1-wire mode: internal reference, no oversampling, no alert.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -40,6 +43,16 @@ pub enum Reference {
     Internal,
     /// 2.5 V to 3.3 V at the pin REFIO.
     External,
+}
+
+impl Reference {
+    /// Wait for it and the supply to settle, milliseconds.
+    pub(crate) const fn power_up_ms(self) -> u32 {
+        match self {
+            Self::Internal => POWER_UP_INTERNAL_MS,
+            Self::External => POWER_UP_EXTERNAL_MS,
+        }
+    }
 }
 
 /// Averaging on the chip. `boost` is the resolution boost: results of 18 bits, for [`crate::Ad7380::read_boosted_pair`].

@@ -7,7 +7,7 @@ use crate::alert::{Alert, Thresholds};
 use crate::config::Config;
 use crate::frame::{pair_from_boosted_frame, pair_from_frame};
 use crate::register::{HARD_RESET, ONE_WIRE, Register, SOFT_RESET};
-use crate::timing::{POWER_UP_MS, RESET_US};
+use crate::timing::RESET_US;
 
 /// The SPI mode: the clock idles high, and data are taken at its falling edge, highest bit first.
 ///
@@ -26,8 +26,9 @@ pub struct Ad7380<SPI> {
 }
 
 impl<SPI: SpiDevice> Ad7380<SPI> {
-    /// Waits 5 ms for the supply and the reference, resets the chip, configures it, reads every register back and clears the averages.
-    /// Pending results are discarded, so that the first pair from [`Self::read_pair`] was sampled with these settings.
+    /// Waits 11 ms for the supply and the internal reference, or 5 ms with an external one, resets the chip, configures it, reads every
+    /// register back and clears the averages. Pending results are discarded, so that the first pair from [`Self::read_pair`] was sampled
+    /// with these settings. An external reference must settle by then, too.
     ///
     /// # Errors
     ///
@@ -39,7 +40,7 @@ impl<SPI: SpiDevice> Ad7380<SPI> {
         config: Config,
     ) -> Result<Self, Error<SPI::Error>> {
         let mut adc = Self { spi, config };
-        delay.delay_ms(POWER_UP_MS);
+        delay.delay_ms(config.reference.power_up_ms());
         adc.write(Register::Configuration2, HARD_RESET)?;
         delay.delay_us(RESET_US);
 

@@ -19,8 +19,10 @@ pub const BOOSTED_FRAME_CLOCKS: u32 = 40;
 pub(crate) const FIRST_OVERSAMPLE_NS: u32 = 10;
 /// Normal average: time of each further conversion, nanoseconds. In Linux it is 500 times the count of channels over that of data lines.
 pub(crate) const NEXT_OVERSAMPLE_NS: u32 = 500 * 2;
-/// Wait for supply and reference to settle, milliseconds.
-pub(crate) const POWER_UP_MS: u32 = 5;
+/// Wait for the supply and the internal reference to settle, within 1 % by the data sheet, milliseconds.
+pub(crate) const POWER_UP_INTERNAL_MS: u32 = 11;
+/// The same with an external reference.
+pub(crate) const POWER_UP_EXTERNAL_MS: u32 = 5;
 /// Wait after a reset, microseconds: the data sheet demands less than one.
 pub(crate) const RESET_US: u32 = 10;
 

@@ -9,14 +9,14 @@ use crate::{answer, configured, default_start, read, with, write};
 #[test]
 fn resets_configures_reads_back_and_waits() {
     let mut spi = Mock::new(&default_start().concat());
-    let waits = |conversion| {
-        let mut waits = vec![Delay::delay_ms(5), Delay::delay_us(10)];
+    let waits = |power_up, conversion| {
+        let mut waits = vec![Delay::delay_ms(power_up), Delay::delay_us(10)];
         // A write, and the two frames of a read, of each of four registers.
         waits.extend((0..12).map(|_| Delay::delay_ns(conversion)));
         waits.extend([Delay::delay_us(10), Delay::delay_ns(conversion)]);
         waits
     };
-    let mut delay = CheckedDelay::new(&waits(190));
+    let mut delay = CheckedDelay::new(&waits(11, 190));
     let adc = Ad7380::new(&mut spi, &mut delay, Config::default()).unwrap();
     assert_eq!(*adc.config(), Config::default());
     spi.done();
@@ -24,16 +24,17 @@ fn resets_configures_reads_back_and_waits() {
 
     // Every frame starts as many conversions as are averaged.
     let slow = Config {
+        reference: Reference::External,
         oversampling: Oversampling::Normal {
             ratio: Ratio::X32,
             boost: false,
         },
         ..Config::default()
     };
-    let start = [configured(0x800, 0x7FF, 0b01_0100_0000), answer(&[0; 4])];
+    let start = [configured(0x800, 0x7FF, 0b01_0100_0010), answer(&[0; 4])];
     let then = read(3, 0);
     let mut spi = Mock::new(&[start.concat(), then].concat());
-    let mut waits = waits(31_010);
+    let mut waits = waits(5, 31_010);
     waits.extend([Delay::delay_ns(31_010), Delay::delay_ns(31_010)]);
     let mut delay = CheckedDelay::new(&waits);
     let mut adc = Ad7380::new(&mut spi, &mut delay, slow).unwrap();

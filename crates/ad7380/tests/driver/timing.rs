@@ -88,10 +88,7 @@ fn the_smallest_clock_for_a_rate_allows_it_and_one_hertz_less_does_not() {
         ratio: RollingRatio::X2,
         boost: true,
     };
-    for (oversampling, rates) in [
-        (Oversampling::Off, 1..=2_439_024),
-        (boosted, 1..=1_960_784),
-    ] {
+    for (oversampling, rates) in [(Oversampling::Off, 1..=2_439_024), (boosted, 1..=1_960_784)] {
         for rate in rates {
             let sclk = min_sclk_hz(rate, oversampling).unwrap();
             let allowed = |sclk| max_pair_rate_hz(sclk, oversampling).unwrap();

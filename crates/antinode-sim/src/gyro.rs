@@ -1,7 +1,7 @@
 //! The stream of samples.
 
 use crate::adc::Adc;
-use crate::dropouts::{Fill, fills};
+use crate::dropouts::Dropouts;
 use crate::error::{Error, positive};
 use crate::flaws::Flaws;
 use crate::front::{Front, Input};
@@ -23,7 +23,7 @@ pub struct Gyro {
     sample_rate: f64,
     front: Front,
     /// Dropouts of C and of D.
-    dropouts: [Spans<Fill>; 2],
+    dropouts: [Dropouts; 2],
     clip: f64,
     clip_spans: Spans<f64>,
     adc: Option<Adc>,
@@ -43,9 +43,9 @@ impl Gyro {
         positive("sample_rate", sample_rate)?;
         wave.check()?;
         flaws.check()?;
-        let mut front = Front::new(wave, &flaws, sample_rate, seed);
-        let mut fills = |channel| fills(&flaws, channel, sample_rate, &mut front);
-        let dropouts = [fills(Channel::C)?, fills(Channel::D)?];
+        let front = Front::new(wave, &flaws, sample_rate, seed);
+        let dropouts = |channel| Dropouts::new(&flaws, channel, sample_rate);
+        let dropouts = [dropouts(Channel::C)?, dropouts(Channel::D)?];
         let clips: Result<Vec<_>, _> = flaws
             .clip_spans
             .iter()
@@ -114,11 +114,13 @@ impl Gyro {
     /// The next sample before the ADC.
     fn analogue(&mut self) -> [f64; 2] {
         let index = self.next;
+        let [c, d] = &mut self.dropouts;
+        let fills = [c, d].map(|dropouts| dropouts.at(index, &mut self.front));
         let Input { signal, floor } = self.front.at(index);
         let mut pair = signal;
-        for (i, dropouts) in self.dropouts.iter_mut().enumerate() {
-            if let Some(span) = dropouts.at(index) {
-                pair[i] = span.what.value(floor[i]);
+        for (i, fill) in fills.iter().enumerate() {
+            if let Some(fill) = fill {
+                pair[i] = fill.value(floor[i]);
             }
         }
         let level = self

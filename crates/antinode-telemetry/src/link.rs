@@ -49,6 +49,8 @@ pub struct Receiver {
     decoder: Decoder<ReportFrame>,
     /// The number expected of the next report.
     next: Option<u16>,
+    /// The number expected if the Hello just received came again.
+    again: Option<u16>,
     reports: u64,
     lost: u64,
     damaged: u64,
@@ -60,6 +62,7 @@ impl Receiver {
         Self {
             decoder: Decoder::new(),
             next: None,
+            again: None,
             reports: 0,
             lost: 0,
             damaged: 0,
@@ -71,13 +74,21 @@ impl Receiver {
         let result = self.decoder.push(byte)?;
         Some(match result {
             Ok(ReportFrame { number, report }) => {
+                let again = self.again.take();
                 let next = match report {
                     // A device that has just started sends a Hello as number 0, then the cause of its start.
-                    Report::Hello(_) if number == 0 => Some(0),
-                    Report::State(State::Started(_)) if self.next != Some(number) => {
+                    Report::Hello(_) if number == 0 => {
+                        self.again = again.or(self.next).filter(|&next| next <= MAX_REPEATED);
+                        Some(0)
+                    }
+                    Report::State(State::Started(_))
+                        if ![number, number.wrapping_add(1)]
+                            .map(Some)
+                            .contains(&self.next) =>
+                    {
                         self.next.map(|_| 0)
                     }
-                    _ => self.next,
+                    _ => again.filter(|&again| again == number).or(self.next),
                 };
                 self.reports += 1;
                 let missing = next.map_or(0, |next| number.wrapping_sub(next));
@@ -110,7 +121,8 @@ impl Receiver {
     /// Count of missing report numbers: reports damaged on the line, and those that the device had no room to send. Numbers are modulo
     /// 65 536, so that multiples of 65 536 missing in a row, and up to 256 less, are not counted; nor are those just before a restart of the
     /// device, unless both of its first reports are missing too: then the numbers seem to go on. A report that comes again within 256 is
-    /// none.
+    /// none. The first two, Hello and Started, are known to come again only where Started follows itself, or a lone Hello is followed by
+    /// the number expected before it; elsewhere they count as a restart.
     pub fn lost(&self) -> u64 {
         self.lost
     }
@@ -196,5 +208,41 @@ mod tests {
             receiver.push(byte);
         }
         assert_eq!((receiver.reports(), receiver.lost()), (1, 0));
+    }
+
+    #[test]
+    fn a_start_that_comes_again_is_no_restart() {
+        const TRACKING: Report = Report::State(State::Tracking);
+        let started = Report::State(State::Started(Cause::Watchdog));
+        let configuration = Configuration::new(Settings::new(1e5), FrontEnd::Synthetic);
+        let hello = Report::Hello(Hello::new("1", configuration));
+        for (numbers, lost) in [
+            (&[0, 1, 1, 2, 3][..], 0),
+            (&[0, 0, 1, 1, 2, 2, 3, 3], 0),
+            (&[0, 1, 2, 0, 3], 0),
+            (&[0, 1, 2, 0, 0, 3, 5], 1),
+            (&[0, 1, 2, 3, 0, 1, 2, 3, 4], 0),
+            // A restart, in which numbers are missing.
+            (&[0, 1, 2, 3, 0, 2, 3], 1),
+            (&[0, 1, 2, 3, 0, 1, 3, 4], 1),
+            (&[600, 0, 600], 599),
+            // Taken for a restart whose Hello is missing.
+            (&[0, 1, 2, 3, 1, 2, 3, 4], 1),
+        ] {
+            let mut receiver = Receiver::new();
+            for &number in numbers {
+                let report = match number {
+                    0 => &hello,
+                    1 => &started,
+                    _ => &TRACKING,
+                };
+                let mut buffer = [0; MAX_FRAME];
+                let bytes = Reporter { next: number }.frame(report, &mut buffer);
+                for &byte in bytes.expect("room") {
+                    receiver.push(byte);
+                }
+            }
+            assert_eq!(receiver.lost(), lost, "{numbers:?}");
+        }
     }
 }

@@ -25,7 +25,15 @@ impl<'de> Deserialize<'de> for Flags {
         if deserializer.is_human_readable() {
             deserializer.deserialize_str(Names)
         } else {
-            u16::deserialize(deserializer).map(Self::from_bits_truncate)
+            let bits = u16::deserialize(deserializer)?;
+            let flags = Self::from_bits_truncate(bits);
+            if flags.bits() != bits {
+                return Err(D::Error::invalid_value(
+                    Unexpected::Unsigned(bits.into()),
+                    &"bits of flags",
+                ));
+            }
+            Ok(flags)
         }
     }
 }

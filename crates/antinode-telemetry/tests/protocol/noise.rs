@@ -167,6 +167,19 @@ fn content_beyond_this_version_is_told() {
 }
 
 #[test]
+fn flags_beyond_this_version_are_told() {
+    let flags = |bits: u16| {
+        let mut buffer = [0; 3];
+        let bytes = postcard::to_slice(&bits, &mut buffer).unwrap();
+        postcard::from_bytes::<antinode::Flags>(bytes)
+    };
+    assert_eq!(flags(0x1ff).map(antinode::Flags::bits), Ok(0x1ff));
+    for bits in [0x200, 0x201, u16::MAX] {
+        assert!(flags(bits).is_err(), "{bits:#x}");
+    }
+}
+
+#[test]
 fn a_frame_too_long_is_told_once_and_the_next_is_whole() {
     let command = CommandFrame {
         id: 1,

@@ -36,7 +36,8 @@ impl Bound {
     /// The bound for `samples` sample pairs at `sample_rate` Hz about the time `middle` (s). The unknowns are a_A, a_B, theta, omega, alpha
     /// and the offsets of both channels, constant over the window with the values that `wave` has at `middle`.
     ///
-    /// `None` if the samples do not determine all seven: fewer than four, less than about half a period, or a_A = |a_B|.
+    /// `None` if the samples do not determine all seven: fewer than four, or a_A = |a_B|. Rounding hides what they determine in windows of
+    /// less than 3 % of a period, where there may be `None` too.
     pub fn new(wave: &Wave, samples: u32, middle: f64, sample_rate: f64) -> Option<Self> {
         Self::of(
             fisher(wave, samples, middle, sample_rate),
@@ -45,7 +46,7 @@ impl Bound {
         )
     }
 
-    /// The same for centred signals, (4): no offsets, five unknowns.
+    /// The same for centred signals, (4): no offsets, five unknowns, and three samples determine them.
     pub fn centred(wave: &Wave, samples: u32, middle: f64, sample_rate: f64) -> Option<Self> {
         let fisher = fisher(wave, samples, middle, sample_rate).fixed_resize::<5, 5>(0.0);
         Self::of(fisher, samples, sample_rate)
@@ -153,12 +154,12 @@ mod tests {
     #[test]
     fn a_window_that_does_not_determine_the_wave_has_no_bound() {
         let wave = Wave::default();
-        for samples in [0, 1, 2, 3] {
-            assert_eq!(
-                Bound::new(&wave, samples, 0.0, 100_000.0),
-                None,
-                "{samples}"
-            );
+        // A fifth of a period and less.
+        for samples in 0..5 {
+            let [full, centred] =
+                [Bound::new, Bound::centred].map(|bound| bound(&wave, samples, 0.0, 100_000.0));
+            assert_eq!(full.is_some(), samples >= 4, "{samples}");
+            assert_eq!(centred.is_some(), samples >= 3, "{samples}");
         }
         let circular = Wave {
             quadrature_amplitude: 2.0,

@@ -75,7 +75,9 @@ enum Stage {
     Try,
 }
 
-/// Streaming detector of formula (9): periods of 4 to 200 samples. The work per sample is bounded: a few additions.
+/// Streaming detector of formula (9): periods of 4.6 to 200 samples. From 4 samples on it finds shorter ones too, but one wave in six of
+/// fewer than 4.2 samples, and one in twenty of more, takes 20 to 400 periods, and one in ten of exactly 4 samples is never found. The work
+/// per sample is bounded: a few additions.
 #[derive(Debug, Clone)]
 pub struct MeanReturnDetector {
     stage: Stage,

@@ -34,6 +34,8 @@ pub enum Event {
 pub struct Course {
     /// The number expected of the next report.
     next: Option<u16>,
+    /// The number expected if the Hello just received came again.
+    again: Option<u16>,
     /// Times of the last counters and of the last estimate, s, each by its own clock.
     times: [Option<f64>; 2],
     /// Missing reports, until one with a time shows what they are.
@@ -48,21 +50,29 @@ impl Course {
     /// Takes a report; gives what it shows.
     pub fn take(&mut self, frame: &ReportFrame) -> Option<Event> {
         let ReportFrame { number, report } = frame;
+        let again = self.again.take();
         let is_start = match report {
             Report::Hello(_) => *number == 0 && self.next != Some(0),
-            Report::State(State::Started(_)) => self.next != Some(*number),
+            // One just behind itself comes again.
+            Report::State(State::Started(_)) => ![*number, number.wrapping_add(1)]
+                .map(Some)
+                .contains(&self.next),
             _ => false,
         };
         if is_start {
             // What was missing just before is not known, and what is missing since is told later.
             *self = Self {
                 next: Some(number.wrapping_add(1)),
+                again: again
+                    .or(self.next)
+                    .filter(|&next| *number == 0 && next <= MAX_REPEATED),
                 missing: self.next.map_or(0, |_| u64::from(*number)),
                 ..Self::default()
             };
             return Some(Event::Started);
         }
-        let missing = self.next.map_or(0, |next| number.wrapping_sub(next));
+        let next = again.filter(|again| again == number).or(self.next);
+        let missing = next.map_or(0, |next| number.wrapping_sub(next));
         let timed = match report {
             Report::Counters(counters) => Some((UPTIME, counters.uptime_ms as f64 * 1e-3)),
             Report::Estimate(estimate) => Some((1 - UPTIME, estimate.time)),
@@ -262,5 +272,29 @@ mod tests {
         let [before, hole, _, started, after] = with;
         let without = events([before, hole, started, after]);
         assert_eq!(without, [Event::Started, Event::Lost(1)]);
+    }
+
+    #[test]
+    fn a_start_that_comes_again_loses_nothing() {
+        let configuration = Configuration::new(Settings::new(1e5), FrontEnd::Synthetic);
+        let hello = Report::Hello(Hello::new("1", configuration));
+        for (numbers, starts, lost) in [
+            (&[0, 1, 1, 2, 3][..], 1, 0),
+            (&[0, 0, 1, 1, 2, 2, 3], 2, 0),
+            (&[0, 1, 2, 0, 0, 3, 5], 3, 1),
+            (&[0, 1, 2, 3, 0, 2, 3], 2, 1),
+        ] {
+            let reports = numbers.iter().map(|&number| match number {
+                0 => (0, hello.clone()),
+                1 => (1, started()),
+                _ => (number, counters(f64::from(number))),
+            });
+            let mut told = events(reports);
+            let all = told.len();
+            told.retain(|event| *event != Event::Started);
+            assert_eq!(all - told.len(), starts, "{numbers:?}");
+            let expected = (lost > 0).then_some(Event::Lost(lost));
+            assert!(told.into_iter().eq(expected), "{numbers:?}");
+        }
     }
 }

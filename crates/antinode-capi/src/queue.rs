@@ -148,7 +148,7 @@ mod tests {
     /// A block that begins at `start`, and whose search number is `start` too.
     fn block(start: u32) -> Block<f32> {
         let step = PhaseStep::from_period(4.0);
-        let mut demodulator = Demodulator::<f32, 2>::new(step, 1, u64::from(start), false);
+        let mut demodulator = Demodulator::<f32, 4>::new(step, 1, u64::from(start), false);
         let block = *demodulator.push([0.0; 2]).unwrap();
         Block {
             search: start,

@@ -58,7 +58,7 @@ enum Stage {
 /// The sample-rate half of an identification on samples of type `S`, for blocks of up to `N` sample pairs:
 /// [its place in firmware](crate#on-a-microcontroller).
 ///
-/// `N` is even, 2 to 65 534, and is the longest period too: 200 is enough for every wave that can be searched for, 40 if a period has no
+/// `N` is even, 4 to 65 534, and is the longest period too: 200 is enough for every wave that can be searched for, 40 if a period has no
 /// more than 40 samples; a slower wave whose frequency is known needs more. If two periods are more than `N` pairs, a block is shorter than
 /// two periods, and a window may be up to a tenth off the length asked for.
 #[derive(Debug, Clone)]
@@ -216,7 +216,7 @@ impl<S: Sample, const N: usize> Front<S, N> {
     }
 
     /// True while a period is searched for: never if the frequency is known; for ever if the period has fewer than 3.8 samples, or more
-    /// than 212 or `N`. Periods of 4 to 200 samples are found.
+    /// than 212 or `N`. Periods of 4 to 200 samples are found; with `Detection::MeanReturn`, those of 4.6 and more in its usual time.
     pub fn is_searching(&self) -> bool {
         matches!(self.stage, Stage::Searching)
     }
@@ -227,7 +227,8 @@ impl<S: Sample, const N: usize> Front<S, N> {
     }
 
     /// Tells that `count` sample pairs were lost before the next one: the block that they would have been part of is dropped. Indices, and
-    /// so times, count them, those before the first pair too. An index that this takes to 2⁶² begins again at 0: no stream is that long.
+    /// so times, count them, those before the first pair too. The index is then taken modulo 2⁶², so that a count of `u64::MAX` moves it
+    /// back by 1: no stream is that long.
     pub fn skip(&mut self, count: u64) {
         if count == 0 {
             return;

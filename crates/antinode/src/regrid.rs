@@ -66,7 +66,7 @@ impl fmt::Display for RegridError {
             ),
             Self::CutOff(cut_off) => write!(
                 f,
-                "cut-off at {cut_off} times the wave's frequency: it must lie within 1 to half the samples a period"
+                "cut-off at {cut_off} times the wave's frequency: it must be above 1, and at most half the samples a period of either grid"
             ),
             Self::Taps(taps) => write!(f, "{taps} taps: it takes an even number of 4 or more"),
         }

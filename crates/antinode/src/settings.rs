@@ -17,13 +17,15 @@ pub enum Detection {
     /// Formula (10): takes about three periods; offsets may be up to 100 a_A, and noise 20 % of a_A and more.
     #[default]
     Difference,
-    /// Formula (9), with the feature `mean-return`: takes about eleven periods; for signals with little noise.
+    /// Formula (9), with the feature `mean-return`: takes about eleven periods; for signals with little noise and periods of 4.6 samples and
+    /// more. [Shorter ones](crate::period::MeanReturnDetector) may take up to 400 periods, or for ever.
     #[cfg(feature = "mean-return")]
     MeanReturn,
 }
 
 /// Settings of an identification. Start from [`Settings::new`] and change what differs; later versions may have more of them. With the
-/// feature `serde`, any field that stored settings lack, except the sample rate, is read as `new` sets it.
+/// feature `serde`, any field that stored settings lack, except the sample rate, is read as `new` sets it, in formats that name their
+/// fields, such as JSON. In others, such as postcard, settings can be read only by a version with the same fields.
 ///
 /// # Example
 ///
@@ -200,8 +202,9 @@ impl Settings {
         {
             return Err(SettingsError::Resolution(resolution));
         }
+        // A period that overflows is one too long for the front.
         if let (Some(frequency), Some(period)) = (self.frequency, self.period())
-            && !within(period, SHORTEST_PERIOD, f32::MAX)
+            && !(frequency > 0.0 && period >= SHORTEST_PERIOD)
         {
             return Err(SettingsError::Frequency(frequency));
         }

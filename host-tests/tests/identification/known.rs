@@ -323,7 +323,10 @@ fn a_frequency_with_a_period_longer_than_a_block_is_refused() {
     for frequency in [
         1.0001 * highest,
         0.999 * lowest,
+        // Its period is beyond f32.
+        1e-34,
         0.0,
+        -1e-34,
         -5332.0,
         f32::INFINITY,
     ] {

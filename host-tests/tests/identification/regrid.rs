@@ -183,4 +183,8 @@ fn invalid_grids_are_refused() {
         Some(RegridError::Taps(5))
     );
     assert!(Regrid::<32>::new(f32::NAN, 20, 2.0).is_err());
+    let told = RegridError::CutOff(1.0).to_string();
+    assert!(
+        told.ends_with("it must be above 1, and at most half the samples a period of either grid")
+    );
 }

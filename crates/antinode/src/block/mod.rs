@@ -38,7 +38,7 @@ pub struct Block<S: Sample> {
 /// Pairs held back at most when they are pushed singly: a slice of them costs far less than each by itself.
 const MAX_HELD: usize = 32;
 
-/// Gathers sample pairs into blocks of up to `N` pairs. `N` is even, 2 to 65 534.
+/// Gathers sample pairs into blocks of up to `N` pairs. `N` is even, 4 to 65 534.
 #[derive(Debug, Clone)]
 pub struct Demodulator<S: Sample, const N: usize> {
     /// Pairs held back, and the count at which they are summed together: at the latest when the block ends.
@@ -65,8 +65,8 @@ impl<S: Sample, const N: usize> Demodulator<S, N> {
     pub(crate) const fn unset() -> Self {
         const {
             assert!(
-                N.is_multiple_of(2) && N >= 2 && N <= u16::MAX as usize,
-                "N, the most sample pairs of a block, must be even and 2 to 65 534"
+                N.is_multiple_of(2) && N >= 4 && N <= u16::MAX as usize,
+                "N, the most sample pairs of a block, must be even and 4 to 65 534"
             );
         }
         Self {

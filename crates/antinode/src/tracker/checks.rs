@@ -17,8 +17,6 @@ pub(super) const SIGMAS: f32 = 7.0;
 pub(super) const SIGNIFICANT: f32 = 36.0;
 /// Share of a_A below which the smaller travelling wave is none, and the pattern a circle.
 const CIRCULAR_RATIO: f32 = 2e-3;
-/// Degrees of freedom with which the noise about the third harmonic is known well enough: those of four blocks.
-const MIN_THIRD_FREEDOM: f32 = 12.0;
 /// Margin on the third harmonic's share of a sample's noise, which is taken to be the wave's.
 const THIRD_NOISE_MARGIN: f32 = 1.2;
 /// Third harmonic that common electronics may have, as a share of a_A.
@@ -109,8 +107,8 @@ pub(crate) fn within(
         (least, FIRST_NOISE_SIGMAS)
     };
     let beyond = own - 4.0 * floor;
-    let coloured = remains.third_freedom >= MIN_THIRD_FREEDOM
-        && beyond > colour * about_third
+    // Without the watch there is no third harmonic: the limit is infinite and the noise zero, and their product NaN, which nothing exceeds.
+    let coloured = beyond > colour * about_third
         && beyond > limit_of(sigmas, remains.freedom, remains.third_freedom) * about_third;
     // White noise is known better from both together.
     let total_freedom = remains.freedom + remains.third_freedom;
@@ -147,8 +145,7 @@ pub(crate) fn within(
 
     let alone = over_total(remains.third_without_image);
     let third_noise = greater(remains.third_without_image, lesser(alone, noise.wide));
-    let harmonic = remains.third_freedom >= MIN_THIRD_FREEDOM
-        && has_harmonic(model, remains, wave, coding, third_noise);
+    let harmonic = has_harmonic(model, remains, wave, coding, third_noise);
     flags = flags.with_if(harmonic, Flags::CLIPPED);
 
     let (main, quadrature) = (&wave.record.main, &wave.record.quadrature);

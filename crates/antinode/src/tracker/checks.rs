@@ -195,12 +195,9 @@ fn has_harmonic(
         .iter()
         .zip(&remains.third)
         .any(|(gain, third)| {
-            let square = gain * gain * third;
-            square > floor * floor && {
-                let chance = square_root(THIRD_NOISE_MARGIN * share * noise) + square_root(steady);
-                let limit = SIGMAS * gain * chance + floor;
-                square > limit * limit
-            }
+            let chance = square_root(THIRD_NOISE_MARGIN * share * noise) + square_root(steady);
+            let limit = SIGMAS * gain * chance + floor;
+            gain * gain * third > limit * limit
         })
 }
 

@@ -332,3 +332,40 @@ fn a_pattern_that_a_split_turns_past_a_circle_is_not_lost() {
         assert!(circular > 3 && rows > 7_500, "{circular} of {rows}");
     }
 }
+
+#[test]
+fn misfits_of_a_circle_do_not_change_the_angle_of_the_wave_behind_it() {
+    let flat = Wave {
+        main_amplitude: 1.0,
+        quadrature_amplitude: 0.3,
+        angle: 0.2,
+        ..Wave::default()
+    };
+    let settings = Settings {
+        frequency: Some(flat.frequency as f32),
+        ..windows(10)
+    };
+    // Without noise what is left of a circle's angle is followed well: it turns by 2 rad, with a spike in every window.
+    let circle = 4000.0 / RATE..8000.0 / RATE;
+    let found = identify_signal(0.0, settings, 12_000, 1, |time| {
+        if !circle.contains(&time) {
+            return flat.pick_offs(time);
+        }
+        let turned = Wave {
+            quadrature_amplitude: 0.9985,
+            angle: flat.angle + 50.0 * (time - circle.start),
+            ..flat
+        };
+        let [c, d] = turned.pick_offs(time);
+        let is_spike = (time * RATE).round() as u32 % 190 == 100;
+        [c + if is_spike { 0.01 } else { 0.0 }, d]
+    });
+    let both = Flags::CIRCULAR.with(Flags::MISFIT);
+    assert!(found.iter().filter(|e| e.flags.contains(both)).count() > 15);
+    let mut rows = 0;
+    for estimate in found.iter().filter(|e| e.flags.is_empty()) {
+        assert!((estimate.angle - flat.angle).abs() < 0.01, "{estimate:?}");
+        rows += 1;
+    }
+    assert!(rows > 35, "{rows}");
+}

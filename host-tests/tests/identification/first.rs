@@ -1,6 +1,8 @@
 //! The first window of a wave, for which no earlier noise is known.
 
-use antinode::{Flags, Settings};
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+
+use antinode::{Estimate, Flags, Settings};
 use antinode_sim::{Flaws, Wave, random_wave};
 use host_tests::score::StatedRatio;
 use host_tests::{RATE, identify, identify_changed, identify_parts, stream, windows};
@@ -250,5 +252,36 @@ fn the_shortest_first_windows_exceed_their_deviations_as_documented() {
         let ratios = ratio.ratios();
         println!("first windows of {pairs} pairs: error over stated {ratios:.3?}");
         assert!(ratios.iter().all(|&ratio| ratio < most), "{pairs} pairs");
+    }
+}
+
+#[test]
+fn misfits_before_the_first_clean_window_do_not_change_the_angle_with_which_the_wave_starts() {
+    // The pattern turns by 1.5 rad in eight windows with a spike each: the first angle without a flag is the one next to the start angle.
+    let wave = Wave {
+        main_amplitude: 1.0,
+        angle_rate: 100.0,
+        ..Wave::default()
+    };
+    let settings = Settings {
+        frequency: Some(wave.frequency as f32),
+        ..windows(10)
+    };
+    for seed in 0..10 {
+        let flaws = Flaws::white(1e-3);
+        let found = identify_changed(wave, &flaws, settings, 3000, seed, |k, [c, d]| {
+            let is_spike = k < 8 * 190 && k % 190 == 100;
+            [c + if is_spike { 0.3 } else { 0.0 }, d]
+        });
+        let is_misfit = |e: &&Estimate| e.flags.contains(Flags::MISFIT);
+        assert_eq!(found.iter().take_while(is_misfit).count(), 8);
+        let turned = wave.at(found[8].time).angle;
+        let wanted = turned - FRAC_PI_2;
+        assert!(found[8].flags.is_empty() && wanted.abs() < FRAC_PI_4);
+        let angle = found[8].angle;
+        assert!(
+            (angle - wanted).abs() < 0.01,
+            "{angle} where {wanted} is next to 0"
+        );
     }
 }

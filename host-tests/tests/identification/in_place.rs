@@ -2,7 +2,7 @@
 
 use antinode::{Calibration, Detection, Estimate, Flags, Front, Settings, Tracker};
 use antinode_sim::{Flaws, Wave, random_wave};
-use host_tests::{Core, stream, windows};
+use host_tests::{Core, RATE, no_wave, stream, windows};
 
 #[test]
 fn a_tracker_without_settings_finds_nothing_and_with_them_it_is_as_new() {
@@ -127,4 +127,37 @@ fn an_identifier_takes_a_calibration_and_settings_while_it_runs() {
         assert_eq!(found.main_amplitude, changed.main_amplitude);
         assert_eq!(found.flags, changed.flags);
     }
+}
+
+#[test]
+fn a_configuration_in_place_forgets_that_the_pattern_vibrated() {
+    // By 5 rad/s at 20 Hz: deviations of the frequency allow for an unknown rate then.
+    let noise = stream(no_wave(), Flaws::white(1e-3), 20_000, 7);
+    let pairs: Vec<[f32; 2]> = (0..)
+        .zip(noise)
+        .map(|(k, [c, d])| {
+            let time = f64::from(k) / RATE;
+            let wave = Wave {
+                main_amplitude: 1.0,
+                quadrature_amplitude: 0.6,
+                angle: 0.3 + 0.04 * (std::f64::consts::TAU * 20.0 * time).sin(),
+                ..Wave::default()
+            };
+            let [of_c, of_d] = wave.pick_offs(time);
+            [c + of_c as f32, d + of_d as f32]
+        })
+        .collect();
+    let run = |core: &mut Core| {
+        let mut found = Vec::new();
+        core.extend(&pairs, |e| {
+            found.push((e.frequency, e.frequency_std, e.angle, e.flags));
+        });
+        found
+    };
+    let mut core = Core::new(windows(10)).unwrap();
+    let new = run(&mut core);
+    let deviation = |from: usize| new[from..from + 10].iter().map(|e| e.1).sum::<f32>() / 10.0;
+    assert!(new.len() > 100 && deviation(90) > 1.4 * deviation(1));
+    core.configure(windows(10)).unwrap();
+    assert_eq!(run(&mut core), new);
 }

@@ -115,3 +115,30 @@ fn limiting_is_flagged_in_short_windows_from_the_stated_samples_a_period_on() {
         }
     }
 }
+
+#[test]
+fn a_weak_third_harmonic_is_flagged_where_no_image_of_another_is_near() {
+    // Blocks of two periods tell the third harmonic from the image of the fifth: its amplitude is not shared with that.
+    for period in [9.3, 10.2] {
+        let wave = Wave {
+            main_amplitude: 1.0,
+            angle: 0.0,
+            frequency: RATE / period,
+            ..Wave::default()
+        };
+        for (third, is_clipped) in [(0.9e-3, false), (1.2e-3, true)] {
+            let flaws = Flaws {
+                noise: 1e-5,
+                cubic: 4.0 * third,
+                ..Flaws::default()
+            };
+            let found = identify(wave, &flaws, windows(50), 10_000, 1);
+            assert!(found.len() > 15);
+            let wanted = Flags::empty();
+            let wanted = if is_clipped { Flags::CLIPPED } else { wanted };
+            for estimate in &found {
+                assert_eq!(estimate.flags, wanted, "{period}, {third}");
+            }
+        }
+    }
+}

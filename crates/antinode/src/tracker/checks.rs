@@ -233,10 +233,14 @@ mod tests {
         fit
     }
 
-    fn flags(fit: &Fit, noise: &mut Noise) -> Flags {
+    fn model() -> Model {
         let carrier = PhaseStep::from_period(18.75);
         let layout = Layout::unrounded(carrier, 37);
-        let model = Model::new(layout, carrier, BLOCKS, Calibration::IDEAL, 1e5, false);
+        Model::new(layout, carrier, BLOCKS, Calibration::IDEAL, 1e5, false)
+    }
+
+    fn flags(fit: &Fit, noise: &mut Noise) -> Flags {
+        let model = model();
         let own = fit.remains.variance();
         let levels = Levels {
             own,
@@ -284,6 +288,29 @@ mod tests {
             let is_new = i < Noise::NEW_LEVEL;
             let expected = Flags::empty().with_if(is_new, Flags::MISFIT);
             assert_eq!(flags(&fit([1e-2; 2]), &mut noise), expected, "{i}");
+        }
+    }
+
+    #[test]
+    fn a_circle_explains_twice_the_power_of_a_flat_pattern() {
+        let model = model();
+        for (waves, power) in [
+            ([Complex32::ONE; 2], 1.0),
+            ([Complex32::ONE, Complex32::ZERO], 0.5),
+        ] {
+            for (share, is_strange) in [(0.2, false), (0.3, true)] {
+                let mut fit = fit([0.0; 2]);
+                fit.waves.value = waves;
+                fit.remains.residual = share * power * model.half;
+                fit.remains.freedom = 1000.0;
+                let own = fit.remains.variance();
+                let wave = Standing::new(&model, &fit, [own, 1.0], own, 0);
+                assert_eq!(
+                    is_no_wave(&model, &fit, &wave),
+                    is_strange,
+                    "{power}, {share}"
+                );
+            }
         }
     }
 }

@@ -12,10 +12,9 @@ pub fn within(text: &str, min: f64, max: f64, unit: &str) -> Result<f64, String>
 
 /// The whole number in `text`, if it lies within these limits; it may have an exponent, as `1e3`.
 pub fn whole(text: &str, min: u16, max: u16) -> Result<u16, String> {
+    let limits = f64::from(min)..=f64::from(max);
     match text.parse::<f64>() {
-        Ok(number) if number.fract() == 0.0 && (min.into()..=max.into()).contains(&number) => {
-            Ok(number as u16)
-        }
+        Ok(number) if limits.contains(&number) && number.fract() == 0.0 => Ok(number as u16),
         _ => Err(format!("it must be a whole number from {min} to {max}")),
     }
 }

@@ -225,7 +225,7 @@ mod tests {
             // A restart, in which numbers are missing.
             (&[0, 1, 2, 3, 0, 2, 3], 1),
             (&[0, 1, 2, 3, 0, 1, 3, 4], 1),
-            (&[600, 0, 600], 599),
+            (&[600, 0, 601], 600),
             // Taken for a restart whose Hello is missing.
             (&[0, 1, 2, 3, 1, 2, 3, 4], 1),
         ] {

@@ -283,6 +283,8 @@ mod tests {
             (&[0, 0, 1, 1, 2, 2, 3], 2, 0),
             (&[0, 1, 2, 0, 0, 3, 5], 3, 1),
             (&[0, 1, 2, 3, 0, 2, 3], 2, 1),
+            // Too far back for one that comes again.
+            (&[600, 0, 601], 1, 600),
         ] {
             let reports = numbers.iter().map(|&number| match number {
                 0 => (0, hello.clone()),

@@ -88,6 +88,24 @@ fn clock_times_are_as_good_as_seconds() {
 }
 
 #[test]
+fn units_of_the_signals_stand_beside_that_of_a_clock() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let expected = rows_of(here, &text(&WAVE.codes(5000)), "");
+    let text = timed("Clock,c,d\nhh:mm:ss,V,mV\n", |k, [c, d]| {
+        let (clock, rest) = clock(CLOCK, k);
+        format!("{clock}.{rest:05},{c},{}", 1000.0 * d)
+    });
+    std::fs::write(here.join("a.csv"), &text).unwrap();
+    let run = run_with(here, "identify --output csv a.csv", Vec::new());
+    same_later(&Row::all(&run.out), &expected, CLOCK as f64);
+    assert_eq!(
+        run.err,
+        "warning: a.csv: S_C is in V and S_D in mV: both are converted to V\n"
+    );
+}
+
+#[test]
 fn a_clock_beside_a_time_is_not_used() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();

@@ -90,6 +90,7 @@ impl<S: Sample> DifferenceDetector<S> {
     /// Forgets all samples.
     pub fn restart(&mut self) {
         self.candidate.is_open = false;
+        self.waiting = 0;
         self.weariness = 0;
         for octave in &mut self.octaves {
             octave.restart();

@@ -60,13 +60,11 @@ enum Stage {
         mean: f32,
         margin: f32,
         samples: u16,
-        longest: u16,
     },
-    /// Sums until the sum has returned to zero, for `longest` samples: with the mean of noise or of a wave's beginning it never does.
+    /// Sums until the sum has returned to zero.
     Sum {
         mean: f32,
         margin: f32,
-        longest: u16,
         upward: Upward,
         sum: f32,
         returns: u16,
@@ -84,6 +82,8 @@ pub struct MeanReturnDetector {
     channel: usize,
     /// Samples since this stage began, or since the first crossing in `Stage::Mean`.
     time: u16,
+    /// Samples that `Stage::Sum` may take: with the mean of noise or of a wave's beginning the sum never returns.
+    longest_sum: u16,
     /// Not in `Stage::Try`, so that it can be begun in place.
     trial: Trial,
 }
@@ -102,6 +102,7 @@ impl MeanReturnDetector {
             stage: Self::START,
             channel: 0,
             time: 0,
+            longest_sum: 0,
             trial: Trial::NONE,
         }
     }
@@ -180,19 +181,18 @@ impl MeanReturnDetector {
                 let span = f32::from(self.time) + *first_overshoot - overshoot;
                 let mean = *middle + (*area - triangle) / span;
                 let period = span / f32::from(SPAN);
+                self.longest_sum = (MAX_SUM * period) as u16 + 2;
                 Stage::Crest {
                     mean,
                     margin: 0.25 * *swing * period / TAU,
                     // The sum's first sample should lie half a sample past the second crest from here.
                     samples: (1.25 * period - overshoot) as u16,
-                    longest: (MAX_SUM * period) as u16 + 2,
                 }
             }
             Stage::Crest {
                 mean,
                 margin,
                 samples,
-                longest,
             } => {
                 if self.time < *samples {
                     return self.wait(MAX_STAGE);
@@ -200,7 +200,6 @@ impl MeanReturnDetector {
                 Stage::Sum {
                     mean: *mean,
                     margin: *margin,
-                    longest: *longest,
                     upward: Upward::default(),
                     sum: 0.0,
                     returns: 0,
@@ -209,7 +208,6 @@ impl MeanReturnDetector {
             Stage::Sum {
                 mean,
                 margin,
-                longest,
                 upward,
                 sum,
                 returns,
@@ -223,8 +221,7 @@ impl MeanReturnDetector {
                     *returns += 1;
                 }
                 if *returns < SPAN {
-                    let longest = *longest;
-                    return self.wait(longest);
+                    return self.wait(self.longest_sum);
                 }
                 // Part of the last step that lies beyond zero.
                 let overshoot = *sum / step;

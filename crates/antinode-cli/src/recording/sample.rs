@@ -1,9 +1,9 @@
 //! Decoding of stored samples to pairs of numbers, many at a time.
 
 use clap::ValueEnum;
+use half::f16;
 
 use super::error::{CHANNELS, Fault};
-use half::f16;
 
 /// How one sample is stored: of raw ones little-endian, the channels in turn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -25,7 +25,7 @@ const OVER_MEDIAN: f64 = 12.0;
 
 /// The mean of the spectra of S_C and S_D, all of one length.
 pub(super) struct Spectrum {
-    // Not by a planner, which takes all lengths: its code would be a tenth of the command's.
+    /// Not by a planner, which takes all lengths: its code would be a tenth of the command's.
     transform: Radix4<f64>,
     /// The window, per pair.
     weights: Vec<f64>,

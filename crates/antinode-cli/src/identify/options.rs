@@ -51,7 +51,7 @@ pub struct Identify {
     /// If only two columns of text are named, the file's own time is ignored, and --rate gives the rate. With --columns, anything but WAV
     /// and NPY is read as text, unless --raw is given. Lines that begin with #, % or // are comments, and settings above the samples are
     /// skipped; a line of units may follow the header. A time in ms, us or ns is understood, and so is that of a clock,
-    /// 2026-11-28T13:45:01.5 or 13:45:01.5, which counts from 1970 or from midnight.
+    /// 2026-11-28T13:45:01.5, 28.11.2026 1:45:01.5 PM or 13:45:01.5, which counts from 1970 or, without a date, from midnight.
     #[arg(long, value_name = "COLUMNS", help_heading = "Recording")]
     pub columns: Option<Columns>,
     /// The converter's rails, at which samples are flagged `clipped`: ±LEVEL, or LOW,HIGH, such as 0,4095 [default: known for integers,

@@ -1,5 +1,5 @@
-//! Columns of clock times, `2026-11-28T13:45:01.5Z`, or `13:45:01.5` of a day that is not told: they are read as if they were written in
-//! seconds, since 1970 or since midnight.
+//! Columns of clock times, `2026-11-28T13:45:01.5Z` or `28.11.2026 1:45:01.5 PM`, or `13:45:01.5` of a day that is not told: they are read
+//! as if they were written in seconds, since 1970 or since midnight.
 
 use jiff::Timestamp;
 use jiff::civil::Date;
@@ -98,22 +98,24 @@ impl Stamps {
 
 /// Whether a field is a clock time, or the date before one where blanks separate fields.
 pub(super) fn is_stamp(field: &[u8]) -> bool {
-    let is_date = |text: &str| text.parse::<Date>().is_ok();
-    seconds(field).is_some() || str::from_utf8(field).is_ok_and(is_date)
+    seconds(field).is_some() || str::from_utf8(field).is_ok_and(|text| date(text).is_some())
 }
 
 /// The clock time in a field in seconds, with all its decimals, and whether it has a date; none if the field holds anything else.
 fn seconds(field: &[u8]) -> Option<(String, bool)> {
-    let text = str::from_utf8(field).ok()?;
-    let (day, clock) = text.split_at_checked(text.find(':')?.checked_sub("hh".len())?)?;
-    let (clock, rest) = clock.split_at_checked("hh:mm:ss".len())?;
-    let date = match day {
+    let (before, rest) = str::from_utf8(field).ok()?.split_once(':')?;
+    let day = before.trim_end_matches(is_digit);
+    let hour = &before[day.len()..];
+    let hour = (hour.len() <= 2).then(|| hour.parse().ok())??;
+    let day = match day {
         "" => None,
-        day => Some(day.strip_suffix(['T', ' '])?),
+        day => Some(date(day.strip_suffix(['T', ' '])?.trim_end())?),
     };
+    let (rest, hour) = without_half(rest.trim_end(), hour)?;
+    let (clock, rest) = rest.split_at_checked("mm:ss".len())?;
     let (decimals, zone) = match rest.strip_prefix(['.', ',']) {
         Some(rest) => {
-            let zone = rest.trim_start_matches(|letter: char| letter.is_ascii_digit());
+            let zone = rest.trim_start_matches(is_digit);
             (&rest[..rest.len() - zone.len()], zone)
         }
         None => ("", rest),
@@ -122,15 +124,50 @@ fn seconds(field: &[u8]) -> Option<(String, bool)> {
         "" => "Z",
         zone => zone,
     };
-    let time = format!("{}T{clock}{zone}", date.unwrap_or("1970-01-01"));
+    let time = format!("{}T{hour:02}:{clock}{zone}", day.unwrap_or_default());
     let whole = time.parse::<Timestamp>().ok()?.as_second();
-    let whole = match date {
+    let whole = match day {
         Some(_) => whole,
         None => whole.rem_euclid(DAY.into()),
     };
     let kept = &decimals[..decimals.len().min(MAX_DECIMALS)];
     let mark = if kept.is_empty() { "" } else { "." };
-    (whole >= 0).then(|| (format!("{whole}{mark}{kept}"), date.is_some()))
+    (whole >= 0).then(|| (format!("{whole}{mark}{kept}"), day.is_some()))
+}
+
+/// A date, `2026-11-28` with dashes, slashes or points, or `28.11.2026`. Dates with slashes whose year is last have no order of their own.
+fn date(text: &str) -> Option<Date> {
+    let mark = text.find(['-', '/', '.'])?;
+    let parts: Vec<&str> = text.split(char::from(text.as_bytes()[mark])).collect();
+    let [first, month, last] = parts[..] else {
+        return None;
+    };
+    let (year, day) = match (first.len(), last.len()) {
+        (4, ..=2) => (first, last),
+        (..=2, 4) if text.as_bytes()[mark] == b'.' => (last, first),
+        _ => return None,
+    };
+    Date::new(year.parse().ok()?, month.parse().ok()?, day.parse().ok()?).ok()
+}
+
+/// What stands before AM or PM, and the hour as clocks of 24 hours show it.
+fn without_half(text: &str, hour: u8) -> Option<(&str, u8)> {
+    let Some((rest, half)) = text.split_at_checked(text.len().saturating_sub("AM".len())) else {
+        return Some((text, hour));
+    };
+    let later = match half {
+        _ if half.eq_ignore_ascii_case("AM") => 0,
+        _ if half.eq_ignore_ascii_case("PM") => 12,
+        _ => return Some((text, hour)),
+    };
+    (1..=12)
+        .contains(&hour)
+        .then_some((rest.trim_end(), hour % 12 + later))
+}
+
+/// Whether a letter is a digit.
+fn is_digit(letter: char) -> bool {
+    letter.is_ascii_digit()
 }
 
 #[cfg(test)]

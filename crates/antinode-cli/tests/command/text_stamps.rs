@@ -35,11 +35,17 @@ fn clock_times_are_as_good_as_seconds() {
         let (clock, rest) = at(k);
         format!("2026-11-28{mark}{clock}.{rest:05}{zone}")
     };
-    let prints: [(&str, u64, Print); 7] = [
+    let prints: [(&str, u64, Print); 9] = [
         ("time,c,d\n", DATE, &|k| date(k, 'T', "")),
         ("", DATE, &|k| date(k, ' ', "")),
         ("Time (UTC),x,y\n", DATE, &|k| date(k, 'T', "0Z")),
         ("when,x,y\n", DATE - 7200, &|k| date(k, ' ', "0000+02:00")),
+        ("Date and time,x,y\n", DATE, &|k| {
+            format!("28.11.2026 {}.{:05}", at(k).0, at(k).1)
+        }),
+        ("Time,x,y\n", DATE, &|k| {
+            format!("2026/11/28 1{}.{:05} PM", &at(k).0[2..], at(k).1)
+        }),
         // The name tells no unit of such times.
         ("time_ms,c,d\n", CLOCK, &|k| {
             format!("{}.{:05}", at(k).0, at(k).1)
@@ -76,7 +82,7 @@ fn clock_times_are_as_good_as_seconds() {
         same_later(&rows_of(here, &text, ""), &expected, CLOCK as f64);
     }
     // Blanks leave the date by itself. From a pipe it is the same.
-    for date in ["", "2026-11-28 "] {
+    for date in ["", "2026-11-28 ", "28.11.2026 "] {
         let text = timed("", |k, [c, d]| {
             let (clock, rest) = at(k);
             format!("{date}{clock}.{rest:05} {c} {d}")
@@ -211,7 +217,7 @@ fn faults_of_clock_times_cost_their_lines_alone() {
         ],
     );
     let other = timed("time,c,d\n", |_, [c, d]| {
-        format!("28.11.2026 13:45:01,{c},{d}")
+        format!("11/28/2026 13:45:01,{c},{d}")
     });
     std::fs::write(here.join("a.csv"), other).unwrap();
     let told = "give it in seconds or as 2026-11-28T13:45:01.5";
@@ -219,6 +225,6 @@ fn faults_of_clock_times_cost_their_lines_alone() {
         here,
         "a.csv",
         Vec::new(),
-        &["a.csv:2:1: the time is `28.11.2026", told],
+        &["a.csv:2:1: the time is `11/28/2026", told],
     );
 }

@@ -236,8 +236,8 @@ fn every_fault_of_the_time_names_the_way_around_it() {
             "too coarse",
         ),
         (
-            timed("zeit,c,d\n", 5000, |t| format!("01.05.2024 00:00:{t:08.5}")),
-            "the time is `01.05.2024 00:00:00.00000`",
+            timed("zeit,c,d\n", 5000, |t| format!("05/01/2024 00:00:{t:08.5}")),
+            "the time is `05/01/2024 00:00:00.00000`",
         ),
         (timed("time_min,c,d\n", 5000, good), "`time_min`"),
     ];

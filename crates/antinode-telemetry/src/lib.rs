@@ -86,6 +86,7 @@ mod configuration;
 mod decoder;
 mod frame;
 mod link;
+mod numbers;
 mod report;
 
 pub use command::{Command, CommandError};
@@ -93,6 +94,7 @@ pub use configuration::{Configuration, FrontEnd};
 pub use decoder::{Damage, Decoder};
 pub use frame::{BufferTooSmall, CommandFrame, Frame, ReportFrame, frame};
 pub use link::{Receiver, Reporter};
+pub use numbers::{Numbers, Place};
 pub use report::FIRMWARE_BYTES;
 pub use report::{Acknowledgement, Cause, Counters, Hello, MethodValues, Methods, Report, State};
 

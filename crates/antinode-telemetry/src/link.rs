@@ -2,7 +2,8 @@
 
 use crate::decoder::{Damage, Decoder};
 use crate::frame::{BufferTooSmall, Frame, ReportFrame, frame_of};
-use crate::report::{Report, State};
+use crate::numbers::{Numbers, Place};
+use crate::report::Report;
 
 /// The device's end: it numbers and frames reports.
 #[derive(Debug, Clone, Default)]
@@ -40,17 +41,11 @@ impl Reporter {
     }
 }
 
-/// Reports back, up to which a report is one that comes again rather than one behind a long gap.
-const MAX_REPEATED: u16 = 256;
-
 /// The PC's end: it takes the device's bytes as they arrive, gives reports, and counts those that are lost.
 #[derive(Debug, Default)]
 pub struct Receiver {
     decoder: Decoder<ReportFrame>,
-    /// The number expected of the next report.
-    next: Option<u16>,
-    /// The number expected if the Hello just received came again.
-    again: Option<u16>,
+    numbers: Numbers,
     reports: u64,
     lost: u64,
     damaged: u64,
@@ -61,8 +56,7 @@ impl Receiver {
     pub const fn new() -> Self {
         Self {
             decoder: Decoder::new(),
-            next: None,
-            again: None,
+            numbers: Numbers::new(),
             reports: 0,
             lost: 0,
             damaged: 0,
@@ -73,31 +67,12 @@ impl Receiver {
     pub fn push(&mut self, byte: u8) -> Option<Result<Report, Damage>> {
         let result = self.decoder.push(byte)?;
         Some(match result {
-            Ok(ReportFrame { number, report }) => {
-                let again = self.again.take();
-                let next = match report {
-                    // A device that has just started sends a Hello as number 0, then the cause of its start.
-                    Report::Hello(_) if number == 0 => {
-                        self.again = again.or(self.next).filter(|&next| next <= MAX_REPEATED);
-                        Some(0)
-                    }
-                    Report::State(State::Started(_))
-                        if ![number, number.wrapping_add(1)]
-                            .map(Some)
-                            .contains(&self.next) =>
-                    {
-                        self.next.map(|_| 0)
-                    }
-                    _ => again.filter(|&again| again == number).or(self.next),
-                };
+            Ok(frame) => {
                 self.reports += 1;
-                let missing = next.map_or(0, |next| number.wrapping_sub(next));
-                // One that comes again, as on a line with an echo.
-                if missing <= u16::MAX - MAX_REPEATED {
+                if let Place::Start(missing) | Place::Next(missing) = self.numbers.take(&frame) {
                     self.lost += u64::from(missing);
-                    self.next = Some(number.wrapping_add(1));
                 }
-                Ok(report)
+                Ok(frame.report)
             }
             Err(damage) => {
                 self.damaged += 1;
@@ -120,9 +95,7 @@ impl Receiver {
 
     /// Count of missing report numbers: reports damaged on the line, and those that the device had no room to send. Numbers are modulo
     /// 65 536, so that multiples of 65 536 missing in a row, and up to 256 less, are not counted; nor are those just before a restart of the
-    /// device, unless both of its first reports are missing too: then the numbers seem to go on. A report that comes again within 256 is
-    /// none. The first two, Hello and Started, are known to come again only where Started follows itself, or a lone Hello is followed by
-    /// the number expected before it; elsewhere they count as a restart.
+    /// device, unless both of its first reports are missing too: then the numbers seem to go on. [`Numbers`] tells which reports come again.
     pub fn lost(&self) -> u64 {
         self.lost
     }
@@ -136,7 +109,7 @@ impl Receiver {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Cause, Configuration, FrontEnd, Hello, MAX_FRAME};
+    use crate::{Cause, Configuration, FrontEnd, Hello, MAX_FRAME, State};
     use antinode::Settings;
 
     #[test]

@@ -2,16 +2,13 @@
 
 use std::mem;
 
-use antinode_telemetry::{Report, ReportFrame, State};
+use antinode_telemetry::{Numbers, Place, Report, ReportFrame};
 
 /// Longest hole whose missing reports are counted by their numbers, which are modulo 65 536, s: no device sends as many in it.
 const COUNTABLE: f64 = 10.0;
 
 /// Most reports missing that are believed whatever time has passed: more without a time, or in no time, may be a restart.
 const BELIEVED: u64 = 1000;
-
-/// Reports back, up to which a report is one that comes again, as on a line with an echo, unless its time contradicts.
-const MAX_REPEATED: u16 = 256;
 
 /// The clock of counters, which come each second; the other one is that of estimates, which come only if there is a wave.
 const UPTIME: usize = 0;
@@ -32,10 +29,7 @@ pub enum Event {
 /// The course so far. Unlike a [`Receiver`](antinode_telemetry::Receiver) it tells a long hole and a restart by the reports' times.
 #[derive(Debug, Default)]
 pub struct Course {
-    /// The number expected of the next report.
-    next: Option<u16>,
-    /// The number expected if the Hello just received came again.
-    again: Option<u16>,
+    numbers: Numbers,
     /// Times of the last counters and of the last estimate, s, each by its own clock.
     times: [Option<f64>; 2],
     /// Missing reports, until one with a time shows what they are.
@@ -49,46 +43,38 @@ pub struct Course {
 impl Course {
     /// Takes a report; gives what it shows.
     pub fn take(&mut self, frame: &ReportFrame) -> Option<Event> {
-        let ReportFrame { number, report } = frame;
-        let again = self.again.take();
-        let is_start = match report {
-            Report::Hello(_) => *number == 0 && self.next != Some(0),
-            // One just behind itself comes again.
-            Report::State(State::Started(_)) => ![*number, number.wrapping_add(1)]
-                .map(Some)
-                .contains(&self.next),
-            _ => false,
-        };
-        if is_start {
-            // What was missing just before is not known, and what is missing since is told later.
-            *self = Self {
-                next: Some(number.wrapping_add(1)),
-                again: again
-                    .or(self.next)
-                    .filter(|&next| *number == 0 && next <= MAX_REPEATED),
-                missing: self.next.map_or(0, |_| u64::from(*number)),
-                ..Self::default()
-            };
-            return Some(Event::Started);
-        }
-        let next = again.filter(|again| again == number).or(self.next);
-        let missing = next.map_or(0, |next| number.wrapping_sub(next));
-        let timed = match report {
+        let timed = match &frame.report {
             Report::Counters(counters) => Some((UPTIME, counters.uptime_ms as f64 * 1e-3)),
             Report::Estimate(estimate) => Some((1 - UPTIME, estimate.time)),
             _ => None,
         };
-        let is_back = missing > u16::MAX - MAX_REPEATED;
-        if is_back && timed.is_none_or(|timed| self.is_repeated(timed, missing.wrapping_neg())) {
-            self.doubtful += 1;
-            return None;
-        }
-        // One so far back that is new after all: those before it were new too.
-        let new = mem::take(&mut self.doubtful);
-        self.next = Some(number.wrapping_add(1));
+        let missing = match self.numbers.take(frame) {
+            Place::Start(missing) => {
+                // What is missing since is told later.
+                *self = Self {
+                    numbers: mem::take(&mut self.numbers),
+                    missing: missing.into(),
+                    ..Self::default()
+                };
+                return Some(Event::Started);
+            }
+            Place::Next(missing) => {
+                self.doubtful = 0;
+                u64::from(missing)
+            }
+            Place::Again(back) if timed.is_none_or(|timed| self.is_repeated(timed, back)) => {
+                self.doubtful += 1;
+                return None;
+            }
+            // Its time contradicts: it is new after all, and those before it were new too.
+            Place::Again(back) => {
+                self.numbers.go_on_behind(frame.number);
+                u64::from(back.wrapping_neg()).saturating_sub(mem::take(&mut self.doubtful))
+            }
+        };
         let before = self.before.unwrap_or(self.times);
         if missing > 0 {
-            self.missing += u64::from(missing).saturating_sub(if is_back { new } else { 0 });
+            self.missing += missing;
             self.before = Some(before);
         }
         timed.and_then(|timed| self.judge(timed, before))
@@ -104,7 +90,7 @@ impl Course {
             || passed.is_some_and(|passed| self.missing as f64 > most(passed))
         {
             *self = Self {
-                next: self.next,
+                numbers: mem::take(&mut self.numbers),
                 ..Self::default()
             };
             self.times[clock] = Some(now);
@@ -143,7 +129,7 @@ impl Course {
 #[cfg(test)]
 mod tests {
     use antinode::{Estimate, Identifier, Settings};
-    use antinode_telemetry::{Cause, Configuration, Counters, FrontEnd, Hello};
+    use antinode_telemetry::{Cause, Configuration, Counters, FrontEnd, Hello, State};
 
     use super::*;
 

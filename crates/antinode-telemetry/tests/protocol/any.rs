@@ -4,6 +4,13 @@ use antinode::{Calibration, Detection, Estimate, Flags, Settings, SettingsError}
 use antinode_telemetry::*;
 use proptest::prelude::*;
 
+/// The period detectors, of which firmware may leave one out.
+pub const DETECTIONS: &[Detection] = &[
+    #[cfg(feature = "mean-return")]
+    Detection::MeanReturn,
+    Detection::Difference,
+];
+
 /// Any single-precision value, NaN and infinities among them.
 pub fn single() -> impl Strategy<Value = f32> + Clone {
     any::<u32>().prop_map(f32::from_bits)
@@ -91,11 +98,7 @@ fn configuration() -> impl Strategy<Value = Configuration> {
                         rails,
                         resolution,
                         frequency,
-                        detection: if detection {
-                            Detection::Difference
-                        } else {
-                            Detection::MeanReturn
-                        },
+                        detection: DETECTIONS[usize::from(detection) % DETECTIONS.len()],
                         watch,
                         hum,
                         coloured,

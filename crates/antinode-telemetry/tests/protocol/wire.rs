@@ -1,13 +1,13 @@
 //! What is on the wire changes only with its version: ends of two releases must not take each other's bytes for something else.
 
-use crate::any::{CAUSES, bytes};
+use crate::any::{CAUSES, DETECTIONS, bytes};
 use antinode::{Calibration, Detection, Estimate, Flags, Settings, SettingsError};
 use antinode_telemetry::*;
 
-/// Numbers that differ, for every field its own: fields that change places change bytes.
-struct Numbers(u8);
+/// Distinct that differ, for every field its own: fields that change places change bytes.
+struct Distinct(u8);
 
-impl Numbers {
+impl Distinct {
     fn next(&mut self) -> u8 {
         self.0 += 1;
         self.0
@@ -99,7 +99,7 @@ impl Numbers {
 }
 
 fn reports() -> Vec<Report> {
-    let mut n = Numbers(0);
+    let mut n = Distinct(0);
     let mut reports = vec![
         Report::Counters(n.counters()),
         Report::Methods(n.methods()),
@@ -120,7 +120,7 @@ fn reports() -> Vec<Report> {
     for flags in flags {
         reports.push(Report::Estimate(Estimate {
             flags,
-            ..Numbers(0).estimate()
+            ..Distinct(0).estimate()
         }));
     }
     for cause in CAUSES {
@@ -133,18 +133,14 @@ fn reports() -> Vec<Report> {
             Detection::Difference,
             [true, false, false],
         ),
-        (
-            FrontEnd::SequencedAdc,
-            Detection::MeanReturn,
-            [false, true, false],
-        ),
+        (FrontEnd::SequencedAdc, DETECTIONS[0], [false, true, false]),
         (FrontEnd::Spi, Detection::Difference, [false, false, true]),
         (FrontEnd::Sai, Detection::Difference, [false; 3]),
         (FrontEnd::Dfsdm, Detection::Difference, [false; 3]),
         (FrontEnd::Synthetic, Detection::Difference, [true; 3]),
     ];
     for (front_end, detection, on) in front_ends {
-        let settings = Numbers(0).settings(detection, on);
+        let settings = Distinct(0).settings(detection, on);
         let configuration = Configuration::new(settings, front_end);
         reports.push(Report::Hello(Hello::new("0.1.0", configuration)));
     }
@@ -193,7 +189,7 @@ fn commands() -> [Command; 11] {
         Command::SetWindow { periods: 20 },
         Command::SetHop { blocks: None },
         Command::SetHop { blocks: Some(5) },
-        Command::SetCalibration(Numbers(0).calibration()),
+        Command::SetCalibration(Distinct(0).calibration()),
         Command::SetFrequency { hertz: None },
         Command::SetFrequency {
             hertz: Some(5332.0),
@@ -206,6 +202,10 @@ fn commands() -> [Command; 11] {
 }
 
 #[test]
+#[cfg_attr(
+    not(feature = "mean-return"),
+    ignore = "one message has a detector of the feature mean-return"
+)]
 fn the_bytes_of_every_message_are_those_of_the_version() {
     let reports = reports()
         .into_iter()

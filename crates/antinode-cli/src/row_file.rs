@@ -114,6 +114,12 @@ impl RowFile {
 
     /// The index of a column that rows must have.
     pub fn needed(&self, column: &str) -> Result<usize, Failure> {
+        if self.header.iter().filter(|name| *name == column).count() > 1 {
+            return Err(Failure::Fault(format!(
+                "{}: two columns {column} in its first line, as in files that were joined side by side; give each of them on its own",
+                self.name
+            )));
+        }
         self.place(column).ok_or_else(|| {
             let name = &self.name;
             Failure::Fault(if self.is_table {

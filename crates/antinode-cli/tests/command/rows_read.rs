@@ -56,6 +56,24 @@ fn rows_of_other_programs_are_the_same_rows() {
 }
 
 #[test]
+fn rows_joined_side_by_side_are_refused() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let text = ring_down(here);
+    let joined: Vec<String> = text.lines().map(|line| format!("{line},{line}")).collect();
+    fs::write(here.join("joined.csv"), joined.join("\n")).unwrap();
+    for arguments in ["resonator joined.csv", "plot joined.csv -o a.svg"] {
+        let refused = run(here, arguments);
+        let told = "joined.csv: two columns time_s in its first line, as in files that were joined side by side";
+        assert!(
+            refused.code == 1 && refused.err.contains(told),
+            "{}",
+            refused.err
+        );
+    }
+}
+
+#[test]
 fn a_file_without_ends_of_line_is_not_read_whole() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();

@@ -191,7 +191,11 @@ impl Model {
         if self.is_unsteady() {
             parameters[RATES + 2] = run.rows[0].angle;
         }
-        Motion::new(&parameters).of_frequency(TAU * run.rows[0].frequency)
+        let motion = Motion::new(&parameters).of_frequency(TAU * run.rows[0].frequency);
+        match self.kind {
+            Kind::Nonlinear => motion,
+            _ => motion.without_gamma(),
+        }
     }
 
     /// Moves on from one row to another. If patterns are turned unsteadily, returns the part of the turn that is not due to rotation, rad,

@@ -53,6 +53,8 @@ pub struct Motion {
     matrix: Matrix4<f64>,
     /// The matrix by which κ moves it within a period, per unit of κ.
     within_period: Matrix4<f64>,
+    /// What moves the state now.
+    series: Series,
 }
 
 impl Motion {
@@ -87,12 +89,16 @@ impl Motion {
         let moved = units
             .column_iter()
             .map(|unit| by_rates(&unit.into_owned()) * still);
-        Self {
+        let matrix = Matrix4::from_columns(&moved.collect::<Vec<_>>());
+        let mut motion = Self {
             columns,
             rates,
-            matrix: Matrix4::from_columns(&moved.collect::<Vec<_>>()),
+            matrix,
             within_period: Matrix4::zeros(),
-        }
+            series: Series::new(matrix, Some(rates[GAMMA])),
+        };
+        motion.steer(-0.5 * rates[KAPPA]);
+        motion
     }
 
     /// The same for a wave of this 2πf, rad/s: without it, periods are taken to be infinitely short.
@@ -105,12 +111,24 @@ impl Motion {
             -wc, 0.0, 0.0, 0.0, //
             decay, 0.0, 0.0, 0.0,
         );
+        self.steer(-0.5 * self.rates[KAPPA]);
+        self
+    }
+
+    /// The same if γ is 0, and derivatives by it are not wanted.
+    pub fn without_gamma(mut self) -> Self {
+        self.series.gamma = None;
         self
     }
 
     /// Sets the rate at which rotation turns the pattern from now on, rad/s; the splits turn it further.
     pub fn steer(&mut self, rate: f64) {
-        self.rates[KAPPA] = -2.0 * rate;
+        let kappa = -2.0 * rate;
+        self.rates[KAPPA] = kappa;
+        let mut linear = self.matrix + self.within_period * kappa;
+        linear[(1, 2)] += 2.0 * kappa;
+        linear[(2, 1)] -= 2.0 * kappa;
+        self.series = Series::new(linear, self.series.gamma);
     }
 
     /// The pattern angle that the motion reaches in this time, s.
@@ -140,28 +158,20 @@ impl Motion {
 
     /// The state after this time, s, which may be negative.
     fn state_after(&self, seconds: f64) -> Vector4<f64> {
-        self.series().moved(self.state(), seconds)
+        self.series.moved(self.state(), seconds)
     }
 
     /// Moves on by this time, s.
     pub fn advance(&mut self, seconds: f64) {
-        self.columns = self.series().moved(self.columns, seconds);
+        if seconds == 0.0 {
+            return;
+        }
+        self.columns = self.series.moved(self.columns, seconds);
     }
 
     /// The slope of the state now.
     fn slope(&self) -> Vector4<f64> {
-        self.series().slope(&self.state())
-    }
-
-    /// What moves the state now.
-    fn series(&self) -> Series {
-        let mut linear = self.matrix + self.within_period * self.rates[KAPPA];
-        linear[(1, 2)] += 2.0 * self.rates[KAPPA];
-        linear[(2, 1)] -= 2.0 * self.rates[KAPPA];
-        Series {
-            linear,
-            gamma: self.rates[GAMMA],
-        }
+        self.series.slope(&self.state())
     }
 
     /// The travelling waves of a state, of which that of `sign` is the greater: its size, and the lesser one, whose phase against it is 4θ.
@@ -177,8 +187,11 @@ impl Motion {
     /// As in the core, each is taken to grow and to turn evenly within a window, or to change along a straight line if it changes by more
     /// than its size. Any departure from that is averaged: the result is the mean of its logarithm, or of itself, by Simpson's rule.
     fn averaged(&self, seconds: f64, sign: f64) -> (f64, Complex<f64>) {
-        let at = |by: f64| Self::travelling(&self.state_after(by), sign);
         let (greater, lesser) = Self::travelling(&self.state(), sign);
+        if seconds == 0.0 {
+            return (greater, lesser);
+        }
+        let at = |by: f64| Self::travelling(&self.state_after(by), sign);
         let [before, after] = [at(-0.5 * seconds), at(0.5 * seconds)];
         let grown = (before.0 * after.0 / (greater * greater)).powf(1.0 / 6.0);
         let change = 0.5 * (after.1 - before.1) / lesser;

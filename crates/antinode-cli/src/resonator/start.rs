@@ -70,37 +70,39 @@ fn add(
     terms: &[Term],
     begins: &[(usize, usize)],
 ) {
-    let mut places: Vec<usize> = begins.iter().map(|&(_, place)| place).collect();
+    // Of each unknown that moves the state: its place, its rates, their effect now and its integral.
     let mut moves = Vec::new();
     for (place, direction) in terms {
         let rates = SVector::<f64, RATES>::from_column_slice(&direction[..RATES]);
         if rates.norm() > 0.0 {
-            places.push(*place);
-            moves.push(rates);
+            moves.push((*place, rates, Vector4::zeros(), Vector4::zeros()));
         }
     }
     let rate = run.turned() / run.seconds();
-    let mut integrals = vec![Vector4::zeros(); moves.len()];
-    let mut before: Option<(f64, Vec<Vector4<f64>>)> = None;
+    let mut before = run.rows[0].time;
+    let mut entries = Vec::with_capacity(1 + moves.len());
     for row in &run.rows {
         let back = turned(-rate * (row.time - run.rows[0].time));
         let state = state(row.main, row.quadrature, row.angle);
         let by_rates = back * by_rates(&state);
-        let slopes: Vec<_> = moves.iter().map(|rates| by_rates * rates).collect();
-        if let Some((time, last)) = before {
-            let half = 0.5 * (row.time - time);
-            for ((integral, last), slope) in integrals.iter_mut().zip(last).zip(&slopes) {
-                *integral += (last + slope) * half;
-            }
+        let half = 0.5 * (row.time - before);
+        before = row.time;
+        for (_, rates, last, integral) in &mut moves {
+            let slope = by_rates * *rates;
+            // Of the first row, the time is 0.
+            *integral += (*last + slope) * half;
+            *last = slope;
         }
-        before = Some((row.time, slopes));
         let weight = 1.0 / (state[0] * row.deviations[0].powi(2));
         let turned = back * state;
-        for (begin, &(equation, _)) in begins.iter().enumerate() {
-            let mut factors = vec![0.0; begins.len()];
-            factors[begin] = 1.0;
-            factors.extend(integrals.iter().map(|integral| integral[equation]));
-            let entries: Vec<_> = places.iter().copied().zip(factors).collect();
+        for &(equation, place) in begins {
+            entries.clear();
+            entries.push((place, 1.0));
+            entries.extend(
+                moves
+                    .iter()
+                    .map(|(place, .., integral)| (*place, integral[equation])),
+            );
             equations.add_equation(index, &entries, turned[equation], weight);
         }
     }

@@ -37,7 +37,7 @@ fn decay_turned(
     let row = |index| {
         let [main, quadrature, angle] = motion.wave().into();
         motion.steer(-0.5 * kappa(index));
-        motion.advance(SECONDS / ROWS as f64);
+        motion.move_state(SECONDS / ROWS as f64);
         let (sine, cosine) = (2.0 * angle).sin_cos();
         [
             Complex::new(main * cosine, quadrature * sine),

@@ -60,7 +60,7 @@ fn run_turned(
             let part = step / PARTS as f64;
             for k in 0..if index > 0 { PARTS } else { 0 } {
                 motion.steer(rate(step * (index - 1) as f64 + part * (k as f64 + 0.5)));
-                motion.advance(part);
+                motion.move_state(part);
             }
             let wave = motion.wave();
             // Noise is equal in all components of both travelling waves, z₊ and z₋.

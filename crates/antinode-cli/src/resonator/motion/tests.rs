@@ -22,6 +22,11 @@ impl Motion {
         let main = (0.5 * (e + r.hypot(s))).sqrt();
         Vector3::new(main, 0.5 * q / main, 0.25 * s.atan2(r))
     }
+
+    /// Moves the state alone by this time, s: where no derivatives are wanted, that costs a fraction.
+    pub fn move_state(&mut self, seconds: f64) {
+        self.columns.set_column(0, &self.state_after(seconds));
+    }
 }
 
 /// A row with this a_A, a_B and θ, whose window has this length, s.

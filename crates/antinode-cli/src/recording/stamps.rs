@@ -124,6 +124,7 @@ fn seconds(field: &[u8]) -> Option<(String, bool)> {
         "" => "Z",
         zone => zone,
     };
+    // Without a date any will do.
     let time = format!("{}T{hour:02}:{clock}{zone}", day.unwrap_or_default());
     let whole = time.parse::<Timestamp>().ok()?.as_second();
     let whole = match day {

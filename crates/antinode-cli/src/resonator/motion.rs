@@ -97,7 +97,7 @@ impl Motion {
             within_period: Matrix4::zeros(),
             series: Series::new(matrix, Some(rates[GAMMA])),
         };
-        motion.steer(-0.5 * rates[KAPPA]);
+        motion.renew();
         motion
     }
 
@@ -111,7 +111,7 @@ impl Motion {
             -wc, 0.0, 0.0, 0.0, //
             decay, 0.0, 0.0, 0.0,
         );
-        self.steer(-0.5 * self.rates[KAPPA]);
+        self.renew();
         self
     }
 
@@ -123,8 +123,13 @@ impl Motion {
 
     /// Sets the rate at which rotation turns the pattern from now on, rad/s; the splits turn it further.
     pub fn steer(&mut self, rate: f64) {
-        let kappa = -2.0 * rate;
-        self.rates[KAPPA] = kappa;
+        self.rates[KAPPA] = -2.0 * rate;
+        self.renew();
+    }
+
+    /// Has the series follow the rates.
+    fn renew(&mut self) {
+        let kappa = self.rates[KAPPA];
         let mut linear = self.matrix + self.within_period * kappa;
         linear[(1, 2)] += 2.0 * kappa;
         linear[(2, 1)] -= 2.0 * kappa;
@@ -163,9 +168,6 @@ impl Motion {
 
     /// Moves on by this time, s.
     pub fn advance(&mut self, seconds: f64) {
-        if seconds == 0.0 {
-            return;
-        }
         self.columns = self.series.moved(self.columns, seconds);
     }
 
@@ -187,11 +189,8 @@ impl Motion {
     /// As in the core, each is taken to grow and to turn evenly within a window, or to change along a straight line if it changes by more
     /// than its size. Any departure from that is averaged: the result is the mean of its logarithm, or of itself, by Simpson's rule.
     fn averaged(&self, seconds: f64, sign: f64) -> (f64, Complex<f64>) {
-        let (greater, lesser) = Self::travelling(&self.state(), sign);
-        if seconds == 0.0 {
-            return (greater, lesser);
-        }
         let at = |by: f64| Self::travelling(&self.state_after(by), sign);
+        let (greater, lesser) = Self::travelling(&self.state(), sign);
         let [before, after] = [at(-0.5 * seconds), at(0.5 * seconds)];
         let grown = (before.0 * after.0 / (greater * greater)).powf(1.0 / 6.0);
         let change = 0.5 * (after.1 - before.1) / lesser;

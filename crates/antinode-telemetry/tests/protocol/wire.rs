@@ -4,7 +4,7 @@ use crate::any::{CAUSES, DETECTIONS, bytes};
 use antinode::{Calibration, Detection, Estimate, Flags, Settings, SettingsError};
 use antinode_telemetry::*;
 
-/// Distinct that differ, for every field its own: fields that change places change bytes.
+/// Numbers that differ, for every field its own: fields that change places change bytes.
 struct Distinct(u8);
 
 impl Distinct {

@@ -41,6 +41,7 @@ use std::env;
 use std::process::ExitCode;
 
 use clap::Parser;
+use failure::Failure;
 use options::{Command, Options};
 use tell::tell;
 
@@ -54,17 +55,11 @@ fn main() -> ExitCode {
         }
     });
     let arguments = arguments.map(arguments::written_out);
-    let result = match Options::parse_from(arguments).command {
-        None => demonstration::run(),
-        Some(Command::Identify(options)) => identify::run(&options),
-        Some(Command::Calibrate(options)) => calibrate::run(&options),
-        Some(Command::Resonator(options)) => resonator::run(&options),
-        Some(Command::Plot(options)) => plot::run(&options),
-        Some(Command::Simulate(options)) => simulate::run(&options),
-        Some(Command::Study(options)) => study::run(&options),
-        Some(Command::Monitor(options)) => device::monitor::run(&options),
-        Some(Command::Send(options)) => device::command::run(&options),
-        Some(Command::Completions(options)) => completions::run(&options),
+    let result = match Options::try_parse_from(arguments) {
+        Ok(options) => run(options.command),
+        Err(error) if error.use_stderr() => error.exit(),
+        // Clap's own way of printing it loses that nothing could be written.
+        Err(help) => help.print().map_err(Failure::from),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
@@ -75,5 +70,20 @@ fn main() -> ExitCode {
             }
             ExitCode::from(failure.code())
         }
+    }
+}
+
+fn run(command: Option<Command>) -> Result<(), Failure> {
+    match command {
+        None => demonstration::run(),
+        Some(Command::Identify(options)) => identify::run(&options),
+        Some(Command::Calibrate(options)) => calibrate::run(&options),
+        Some(Command::Resonator(options)) => resonator::run(&options),
+        Some(Command::Plot(options)) => plot::run(&options),
+        Some(Command::Simulate(options)) => simulate::run(&options),
+        Some(Command::Study(options)) => study::run(&options),
+        Some(Command::Monitor(options)) => device::monitor::run(&options),
+        Some(Command::Send(options)) => device::command::run(&options),
+        Some(Command::Completions(options)) => completions::run(&options),
     }
 }

@@ -81,6 +81,9 @@ fn a_full_standard_output_is_named() {
         "identify a.wav",
         "completions bash",
         "simulate -o b.wav",
+        "--help",
+        "identify -h",
+        "--version",
     ] {
         let full = shell(here, &format!("\"$antinode\" {arguments} > /dev/full"));
         assert_eq!(

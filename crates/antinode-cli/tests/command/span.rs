@@ -205,7 +205,7 @@ fn a_span_outside_the_recording_is_reported() {
 
 #[test]
 fn the_command_does_not_wait_for_a_pipe_beyond_the_span() {
-    let mut child = Command::new(assert_cmd::cargo::cargo_bin("antinode"))
+    let mut child = Command::new(env!("CARGO_BIN_EXE_antinode"))
         .args([
             "identify", "-", "--raw", "i16", "--rate", "1e5", "--to", "0.05",
         ])

@@ -74,7 +74,7 @@ fn input_that_is_no_pairs_of_numbers_is_refused() {
 
 #[test]
 fn a_row_is_there_as_soon_as_its_lines() {
-    let mut child = Command::new(assert_cmd::cargo::cargo_bin("antinode"))
+    let mut child = Command::new(env!("CARGO_BIN_EXE_antinode"))
         .args(["identify", "-", "--rate", "1e5", "--output", "csv"])
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())

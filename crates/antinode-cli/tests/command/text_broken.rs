@@ -216,7 +216,7 @@ fn a_pipe_gives_its_rows_before_a_broken_line_is_followed() {
     // The broken line is beyond those that are read ahead.
     let count = 1 << 16;
     let whole = text(&WAVE.codes(count + 5000));
-    let mut run = Command::new(assert_cmd::cargo::cargo_bin("antinode"))
+    let mut run = Command::new(env!("CARGO_BIN_EXE_antinode"))
         .args(["identify", "-", "--output", "csv"])
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())

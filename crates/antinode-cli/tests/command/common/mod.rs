@@ -6,12 +6,12 @@ pub mod ring_downs;
 pub mod svg;
 mod wave;
 
-use std::fs;
+use std::io::Write;
 use std::path::Path;
+use std::process::{Child, Command, Stdio};
 #[cfg(unix)]
-use std::process::{self, Child, ChildStdin, Output, Stdio};
-
-use assert_cmd::Command;
+use std::process::{ChildStdin, Output};
+use std::{fs, thread};
 
 pub use wave::{RATE, WAVE, Wave, npy, printed, raw, silence, text, wav};
 
@@ -40,7 +40,7 @@ pub fn done(directory: &Path, arguments: &str) -> Run {
 /// Runs a line of shell in a directory, where `$antinode` is the command.
 #[cfg(unix)]
 pub fn shell(directory: &Path, line: &str) -> Output {
-    let mut shell = process::Command::new("sh");
+    let mut shell = Command::new("sh");
     shell.args(["-c", line]).current_dir(directory);
     let shell = shell.env("antinode", env!("CARGO_BIN_EXE_antinode"));
     shell.output().unwrap()
@@ -50,15 +50,14 @@ pub fn shell(directory: &Path, line: &str) -> Output {
 #[cfg(unix)]
 pub fn send(signal: &str, child: &Child) {
     // The shell's own: a minimal system has no program of that name.
-    let sent = process::Command::new("sh")
+    let sent = Command::new("sh")
         .args(["-c", "kill \"$0\" \"$1\"", signal, &child.id().to_string()])
         .status();
     assert!(sent.unwrap().success());
 }
 
 /// Starts a command, with pipes to and from it.
-#[cfg(unix)]
-pub fn piped(command: &mut process::Command) -> Child {
+pub fn piped(command: &mut Command) -> Child {
     let command = command.stdin(Stdio::piped()).stdout(Stdio::piped());
     command.stderr(Stdio::piped()).spawn().unwrap()
 }
@@ -90,12 +89,14 @@ pub fn rms(errors: &[f64]) -> f64 {
 
 /// Runs the command in a directory, with bytes on standard input.
 pub fn run_with(directory: &Path, arguments: &str, input: Vec<u8>) -> Run {
-    let output = Command::new(env!("CARGO_BIN_EXE_antinode"))
-        .current_dir(directory)
-        .args(arguments.split_whitespace())
-        .write_stdin(input)
-        .output()
-        .unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_antinode"));
+    let command = command.current_dir(directory);
+    let mut child = piped(command.args(arguments.split_whitespace()));
+    let mut pipe = child.stdin.take().unwrap();
+    // A command that fails at once reads nothing.
+    let writer = thread::spawn(move || drop(pipe.write_all(&input)));
+    let output = child.wait_with_output().unwrap();
+    writer.join().unwrap();
     Run {
         code: output.status.code().expect("no signal ends the command"),
         out: String::from_utf8(output.stdout).unwrap(),

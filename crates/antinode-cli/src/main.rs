@@ -73,6 +73,7 @@ fn main() -> ExitCode {
     }
 }
 
+/// Runs a subcommand; without one, the demonstration.
 fn run(command: Option<Command>) -> Result<(), Failure> {
     match command {
         None => demonstration::run(),

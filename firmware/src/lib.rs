@@ -44,8 +44,8 @@
 //! | `bench`, `beside`, `load`, `codes` | kernels to measure, others to compare with, the whole pipeline, and samples for all of them |
 //! | `marks`, `gauge`, `text` | begin and end of a measurement; counters and stack paint; the printed line |
 //!
-//! The modules above `hardware` do not depend on hardware, and are tested on the host too: `cargo test --release -p firmware --lib` and
-//! `cargo test --release --test firmware`. Pins and ranges are in `firmware/docs/wiring.md`.
+//! The modules above `hardware` do not depend on hardware, and are tested on the host too: `cargo test -p firmware --lib` and
+//! `cargo test --test firmware`. Pins and ranges are in `firmware/docs/wiring.md`.
 #![no_std]
 
 #[cfg(test)]

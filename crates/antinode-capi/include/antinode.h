@@ -40,10 +40,10 @@
 //    the first block after it, or of a signal that looks like a wave but is not, such as two tones; afterwards 10 to 80, or 70 to 180 with
 //    _push. These are means: a single _push may take 2000 during the search, and 1150 (fixed) or 2150 (float) afterwards; half-buffers
 //    never take that many a pair.
-//  - Without a floating-point unit: during the search, in noise (and at most over a half-buffer of 128 pairs; in a single _push)
-//        thumbv7em-none-eabi   fixed 1760 (4070; 19100)   float 6600 (8940; 23000)
-//        thumbv7m-none-eabi    fixed 2060 (4380; 19400)   float 6600 (8940; 23000)
-//        thumbv6m-none-eabi    fixed 3860 (8490; 38600)   float 12400 (16800; 45000)
+//  - Without a floating-point unit: during the search, in noise (and the most seen over a half-buffer of 128 pairs; in a single _push)
+//        thumbv7em-none-eabi   fixed 1760 (4370; 19100)   float 6600 (8940; 23000)
+//        thumbv7m-none-eabi    fixed 2060 (4680; 19400)   float 6600 (8940; 23000)
+//        thumbv6m-none-eabi    fixed 3860 (9040; 38600)   float 12400 (16800; 45000)
 //    At 100 kHz this is more than such a core can do, and the thread gets no time while there is no wave: give `frequency_hz`, with which
 //    a pair takes 21, 119 and 209 (float 1190, 1180 and 2180), over the first half-buffer up to 1130, 1220 and 3430 (float 2410, 2390 and
 //    5200); or, at rates that leave time for half-buffers of up to 1950, 1950 and 4080 (float 2390, 2380 and 5180),

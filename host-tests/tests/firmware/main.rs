@@ -1,7 +1,7 @@
 //! Tests of the images: `replay` in QEMU against the same pipeline on the host, and properties of the others.
 //!
 //! Those of the emulator and of what is in the images need the ARM target and QEMU, and so are run explicitly:
-//! `cargo test --release --test firmware -- --ignored`.
+//! `cargo test --test firmware -- --ignored`.
 #![cfg(unix)] // the emulator's serial line is a Unix socket
 
 mod board;

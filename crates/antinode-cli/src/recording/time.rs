@@ -282,10 +282,10 @@ fn are_mostly_alike(distances: &mut [usize]) -> bool {
 
 /// The number of fewest digits within `uncertainty` of `value`.
 pub(super) fn roundest(value: f64, uncertainty: f64) -> f64 {
-    let magnitude = value.log10().floor() as i32;
+    let last_digit = 10f64.powf(value.log10().floor() - 14.0);
     (1..=16)
         .map(|digits| significant(value, digits))
-        .find(|round| (round - value).abs() <= uncertainty.max(10f64.powi(magnitude - 14)))
+        .find(|round| (round - value).abs() <= uncertainty.max(last_digit))
         .unwrap_or(value)
 }
 

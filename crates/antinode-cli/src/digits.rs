@@ -33,7 +33,7 @@ pub fn significant_or_known(x: f64, digits: usize, std: f64) -> f64 {
 }
 
 /// The decimal exponent of a number: 0 from 1 to below 10.
-fn exponent(x: f64) -> f64 {
+pub fn exponent(x: f64) -> f64 {
     x.abs().log10().floor()
 }
 

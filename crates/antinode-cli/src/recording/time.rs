@@ -16,7 +16,7 @@ use rounded::Steps;
 use still::{backwards, coarse};
 
 use super::printed::Printed;
-use crate::digits::significant;
+use crate::digits::{exponent, significant};
 use crate::median::median;
 
 /// Largest deviation of a step from whole samples, in samples.
@@ -282,7 +282,7 @@ fn are_mostly_alike(distances: &mut [usize]) -> bool {
 
 /// The number of fewest digits within `uncertainty` of `value`.
 pub(super) fn roundest(value: f64, uncertainty: f64) -> f64 {
-    let last_digit = 10f64.powf(value.log10().floor() - 14.0);
+    let last_digit = 10f64.powf(exponent(value) - 14.0);
     (1..=16)
         .map(|digits| significant(value, digits))
         .find(|round| (round - value).abs() <= uncertainty.max(last_digit))

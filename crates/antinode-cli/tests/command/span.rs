@@ -3,10 +3,10 @@
 use std::fs;
 use std::io::Write;
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Command;
 
 use crate::common::{
-    RATE, Row, WAVE, fault, npy, printed, raw, rows, run, run_with, same_later, wav,
+    self, RATE, Row, WAVE, fault, npy, printed, raw, rows, run, run_with, same_later, wav,
 };
 
 const PAIRS: usize = 20_000;
@@ -205,14 +205,10 @@ fn a_span_outside_the_recording_is_reported() {
 
 #[test]
 fn the_command_does_not_wait_for_a_pipe_beyond_the_span() {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_antinode"))
-        .args([
-            "identify", "-", "--raw", "i16", "--rate", "1e5", "--to", "0.05",
-        ])
-        .stdin(Stdio::piped())
-        .stdout(Stdio::null())
-        .spawn()
-        .unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_antinode"));
+    let mut child = common::piped(command.args([
+        "identify", "-", "--raw", "i16", "--rate", "1e5", "--to", "0.05",
+    ]));
     let mut input = child.stdin.take().unwrap();
     input.write_all(&raw(&WAVE.codes(6000))).unwrap();
     assert!(child.wait().unwrap().success());

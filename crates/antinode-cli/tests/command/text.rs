@@ -3,9 +3,9 @@
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Command;
 
-use crate::common::{Row, WAVE, fault, rows, run_with, text};
+use crate::common::{Row, WAVE, fault, piped, rows, run_with, text};
 
 /// Runs `identify --output csv`, which must succeed.
 fn good(directory: &Path, arguments: &str, input: &str) -> Vec<Row> {
@@ -74,12 +74,8 @@ fn input_that_is_no_pairs_of_numbers_is_refused() {
 
 #[test]
 fn a_row_is_there_as_soon_as_its_lines() {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_antinode"))
-        .args(["identify", "-", "--rate", "1e5", "--output", "csv"])
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .spawn()
-        .unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_antinode"));
+    let mut child = piped(command.args(["identify", "-", "--rate", "1e5", "--output", "csv"]));
     let mut input = child.stdin.take().unwrap();
     for pair in WAVE.codes(1000) {
         writeln!(input, "{},{}", pair[0], pair[1]).unwrap();

@@ -3,10 +3,10 @@
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Command;
 use std::thread;
 
-use crate::common::{Row, WAVE, fault, rows, rows_of, run_with, same_later, text};
+use crate::common::{Row, WAVE, fault, piped, rows, rows_of, run_with, same_later, text};
 
 /// The lines of a recording, whose rows go to `good.csv`.
 fn lines(directory: &Path) -> (Vec<String>, Vec<Row>) {
@@ -216,13 +216,8 @@ fn a_pipe_gives_its_rows_before_a_broken_line_is_followed() {
     // The broken line is beyond those that are read ahead.
     let count = 1 << 16;
     let whole = text(&WAVE.codes(count + 5000));
-    let mut run = Command::new(env!("CARGO_BIN_EXE_antinode"))
-        .args(["identify", "-", "--output", "csv"])
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_antinode"));
+    let mut run = piped(command.args(["identify", "-", "--output", "csv"]));
     let mut input = run.stdin.take().unwrap();
     let writing = thread::spawn(move || {
         input.write_all(whole.as_bytes()).unwrap();

@@ -1,15 +1,12 @@
 //! `antinode calibrate`: rows of a pattern that turned in, the pick-offs' calibration out.
 
-mod equations;
-mod moments;
-mod pick_offs;
-mod solve;
-mod undriven;
-mod within_period;
-
 use std::io::{self, Write};
 
 use antinode::Flags;
+use antinode_ringdown::calibration::{
+    Calibration, Decay, Found, MAX_TURN, MIN_TURN_BACK, PickOffs,
+};
+use antinode_ringdown::{BEYOND_NOISE, Run};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 
@@ -18,16 +15,11 @@ use crate::failure::Failure;
 use crate::given_rows::GivenRows;
 use crate::options::{Corrected, Format};
 use crate::result_file::ResultFile;
-use crate::runs::{BEYOND_NOISE, Runs, driven};
+use crate::runs::{Runs, rows_in, warn_of_driven};
 use crate::serialized;
-use pick_offs::PickOffs;
-use solve::{Decay, Found, MIN_TURN_BACK, solve};
-use undriven::{moments, without_driven};
 
 /// Deviations below which a flaw is not significant.
 const SIGNIFICANT: f64 = 3.0;
-/// Turn of the pattern from row to row, at most, rad: sums over time then agree with integrals to 2 %.
-const MAX_TURN: f64 = 0.1;
 
 /// `antinode calibrate`.
 #[derive(Debug, Args)]
@@ -82,27 +74,19 @@ pub fn run(options: &Calibrate) -> Result<(), Failure> {
     };
     options.file.check(&options.given.rows)?;
     let corrected = PickOffs::from(&options.corrected);
-    let (mut rows, name) = Runs::open(&options.given, MAX_TURN, Flags::REACQUIRED)?;
-    let every = moments(&rows.runs, &corrected);
-    let mut found = solve(&every, corrected);
-    let (start, residual) = match &found {
-        Ok(found) => (found.pick_offs, found.residual),
-        // Driven rows may spoil it so far that there is none.
-        Err(_) => (corrected, f64::INFINITY),
-    };
-    let mut driven = Vec::new();
-    if residual > BEYOND_NOISE
-        && let Some((others, [runs, left_out])) =
-            without_driven(&rows.runs, &every, &corrected, (start, residual))
-    {
-        (found, rows.runs, driven) = (Ok(others), runs, left_out);
-    }
-    let found = found.map_err(|told| Failure::Fault(format!("{name}: {told}")))?;
+    let (rows, name) = Runs::open(&options.given, MAX_TURN, Flags::REACQUIRED)?;
+    let calibration = Calibration::of(&rows.runs, corrected)
+        .map_err(|told| Failure::Fault(format!("{name}: {told}")))?;
+    let Calibration {
+        runs,
+        driven,
+        found,
+    } = calibration;
     let quantities = quantities(&found);
     let mut report = io::stderr().lock();
     // The result goes to standard output: standard error may be closed.
-    let _ = driven::warn(&mut report, &driven)
-        .and_then(|()| write_report(&mut report, &name, &rows, &found, &quantities));
+    let _ = warn_of_driven(&mut report, &driven)
+        .and_then(|()| write_report(&mut report, &name, (&rows, &runs), &found, &quantities));
     let apart = found.deviations.map(|std| SIGNIFICANT * std);
     if corrected == PickOffs::IDEAL {
         // Deviations that an unexplained residual has widened cover any flaws.
@@ -119,6 +103,16 @@ pub fn run(options: &Calibrate) -> Result<(), Failure> {
     let mut out = Vec::new();
     print(&mut out, format, &quantities)?;
     options.file.write(&out)
+}
+
+impl From<&Corrected> for PickOffs {
+    fn from(corrected: &Corrected) -> Self {
+        Self {
+            gain_ratio: corrected.gain_ratio.into(),
+            skew: f64::from(corrected.skew_ns) * 1e-9,
+            angle: corrected.pick_off_angle.into(),
+        }
+    }
 }
 
 /// The quantities of a calibration.
@@ -175,7 +169,7 @@ fn print(out: &mut impl Write, how: Printed, quantities: &[Quantity]) -> io::Res
 fn write_report(
     out: &mut impl Write,
     name: &str,
-    rows: &Runs,
+    (rows, used): (&Runs, &[Run]),
     found: &Found,
     quantities: &[Quantity],
 ) -> io::Result<()> {
@@ -190,11 +184,11 @@ fn write_report(
     writeln!(
         out,
         "{name}: {} of {} rows; the pattern turns by {}",
-        rows.used(),
+        rows_in(used),
         rows.rows,
         turns.join(" and ")
     )?;
-    rows.write_notes(out)?;
+    rows.write_notes(used, out)?;
     for one in quantities {
         let text = with_std(one.value, one.std);
         writeln!(out, "{:<20} {}", one.label, text.trim_end())?;

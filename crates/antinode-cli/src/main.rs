@@ -8,18 +8,15 @@ mod calibrate;
 mod canvas;
 mod completions;
 mod demonstration;
-#[cfg(test)]
-mod deviates;
 mod device;
 mod digits;
 mod failure;
 mod given_rows;
 mod identify;
 mod interrupt;
-mod line;
+
 mod median;
 mod methods;
-mod normal;
 mod options;
 mod plot;
 mod progress;

@@ -1,35 +1,21 @@
 //! Groups rows that `antinode identify` printed into runs: spans of time in which the pattern moves without a break.
 
-pub mod driven;
-mod jump;
-mod recording;
-mod repeated;
-mod row;
-mod run;
-mod step;
-pub mod way;
+mod columns;
 
-use std::f64::consts::FRAC_PI_2;
 use std::io::{self, Write};
 use std::ops::Range;
 
 use antinode::Flags;
+use antinode_ringdown::{MIN_ROWS, Recording, Run};
 
 use crate::digits::counted;
 use crate::failure::Failure;
 use crate::given_rows::{GivenRows, none_within, recording_of, told_apart};
 use crate::row_file::{self, RowFile};
-use recording::Recording;
-use row::Places;
-pub use row::{BOWS, Row};
-pub use run::Run;
+use columns::Places;
 
-/// Rms residual over the rows' own deviations, from which on there is a warning that it is more than noise.
-pub const BEYOND_NOISE: f64 = 2.0;
-/// The same from which on a fit does not explain the rows.
-pub const EXPLAINED: f64 = 1.5;
-/// Fewest rows of a run, which has four unknowns of its own.
-pub const MIN_ROWS: usize = 12;
+/// Driven runs that are named, at most.
+const MAX_NAMED: usize = 5;
 
 /// The runs of all rows, and what was left out.
 #[derive(Debug, Default)]
@@ -158,13 +144,8 @@ impl Runs {
         each.collect()
     }
 
-    /// Number of rows in runs.
-    pub fn used(&self) -> usize {
-        self.runs.iter().map(|run| run.rows.len()).sum()
-    }
-
-    /// Writes which rows were left out, where runs end at a step, and what is given twice.
-    pub fn write_notes(&self, out: &mut impl Write) -> io::Result<()> {
+    /// Writes which rows were left out, where runs end at a step, and what is given twice in the runs that are used.
+    pub fn write_notes(&self, used: &[Run], out: &mut impl Write) -> io::Result<()> {
         if self.overlapping > 0 {
             writeln!(
                 out,
@@ -187,8 +168,8 @@ impl Runs {
                 "a gain or the wave steps at {time:.2} s{of}{more}: a run ends there, and another begins"
             )?;
         }
-        let repeated = self.runs.iter().enumerate().find(|(index, run)| {
-            let mut before = self.runs[..*index].iter();
+        let repeated = used.iter().enumerate().find(|(index, run)| {
+            let mut before = used[..*index].iter();
             before.any(|other| run.repeats(other) || other.repeats(run))
         });
         if let Some((_, run)) = repeated {
@@ -221,27 +202,29 @@ impl Runs {
             }
             self.rows += 1;
             let from = file.map_or("", |file| &record[file]);
-            let is_its = |one: &Recording| one.file == from;
-            current = recording_of(&mut recordings, current, is_its, || Recording::new(from));
+            let is_its = |one: &Recording| one.name() == from;
+            let new = || Recording::new(from, self.max_turn, self.breaks);
+            current = recording_of(&mut recordings, current, is_its, new);
             let flags = row_file::flags(record, flags).map_err(|told| rows.unusable(told))?;
             if !flags.is_empty() {
-                recordings[current].leave_out(flags, self.breaks, places.way(record));
+                recordings[current].leave_out(flags, places.way(record));
                 continue;
             }
             // Not before: a flagged row need not have numbers.
-            let row = Row::parse(record, &places).map_err(|told| rows.unusable(told))?;
-            recordings[current].take(row, self.max_turn);
+            let window = places.window(record).map_err(|told| rows.unusable(told))?;
+            recordings[current].take(&window);
         }
         for mut recording in recordings {
             recording.end();
-            let named = (rows.name().to_owned(), recording.file.clone());
-            self.recordings.push((named, recording.runs.len()));
+            let name = recording.name().to_owned();
+            let count = recording.runs.len();
+            let steps = recording.steps.iter().map(|&time| (name.clone(), time));
+            self.steps.extend(steps);
+            self.recordings
+                .push(((rows.name().to_owned(), name), count));
             self.overlapping += recording.overlapping;
             self.backward += recording.backward;
             self.runs.append(&mut recording.runs);
-            let steps = recording.steps.into_iter();
-            self.steps
-                .extend(steps.map(|time| (recording.file.clone(), time)));
         }
         Ok(())
     }
@@ -254,14 +237,36 @@ fn given_twice(what: &str) -> Failure {
     ))
 }
 
-/// Change of an angle that is known modulo π/2, reduced to −π/4 to π/4.
-pub fn turn(change: f64) -> f64 {
-    change - FRAC_PI_2 * (change / FRAC_PI_2).round()
+/// Number of rows in runs.
+pub fn rows_in(runs: &[Run]) -> usize {
+    runs.iter().map(|run| run.rows.len()).sum()
 }
 
-/// One over 2πf, s/rad; 0, as if periods were infinitely short, where this is no frequency of a wave but stands for one unknown.
-pub fn per_radian(omega: f64) -> f64 {
-    if omega.abs() < 1.0 { 0.0 } else { 1.0 / omega }
+/// A run's recording, length and beginning, in words.
+pub fn named(run: &Run) -> String {
+    let file = match run.file.as_str() {
+        "" => String::new(),
+        file => format!("{file}, "),
+    };
+    let (seconds, from) = (run.seconds(), run.rows[0].time);
+    format!("{file}{seconds:.1} s from {from:.1} s on")
+}
+
+/// Warns of runs that were left out because something drives them.
+pub fn warn_of_driven(out: &mut impl Write, driven: &[Run]) -> io::Result<()> {
+    if driven.is_empty() {
+        return Ok(());
+    }
+    let mut names: Vec<_> = driven.iter().take(MAX_NAMED).map(named).collect();
+    if driven.len() > MAX_NAMED {
+        names.push(format!("and {} more", driven.len() - MAX_NAMED));
+    }
+    writeln!(
+        out,
+        "warning: left out: {} in which something drives the wave, as it does not decay there but does in others: {}",
+        counted(driven.len() as u64, "run"),
+        names.join("; ")
+    )
 }
 
 #[cfg(test)]

@@ -15,6 +15,7 @@
 //! * [`Flaws`] is everything between the resonator and the file: noise, offset, gain, skew, clipping, quantisation, lost
 //!   samples and so on. Its documentation gives the order in which they act.
 //! * [`Gyro`] is the stream of samples, an endless iterator of pairs [S_C, S_D]; [`Gyro::codes`] gives the ADC's integers.
+//! * [`Deviates`] is noise alone: independent normal numbers, for what is simulated elsewhere.
 //! * [`Bound`] is the Cramér-Rao bound: how well a window of the wave can be identified at all.
 //!
 //! # Reproducible
@@ -61,6 +62,7 @@ pub use bound::Bound;
 pub use error::Error;
 pub use flaws::Flaws;
 pub use gyro::{Codes, Gyro};
+pub use noise::Deviates;
 pub use random::random_wave;
 pub use timed::{Channel, ClipSpan, Dropout, DropoutKind, Loss};
 pub use wave::{Truth, Wave};

@@ -15,6 +15,7 @@ pub(crate) enum Stream {
     Jitter = 2,
     Wave = 3,
     Coloured = 4,
+    Deviates = 5,
 }
 
 /// Uniform numbers.
@@ -65,6 +66,35 @@ impl Normals {
         let radius = sqrt(-2.0 * log(1.0 - self.uniform.unit())); // 1 - u: never the logarithm of 0
         let (sin, cos) = sincos(TAU * self.uniform.unit());
         (radius * cos, radius * sin)
+    }
+}
+
+/// Independent normal numbers of mean 0 and variance 1, the same for the same seed on every platform.
+#[derive(Debug, Clone)]
+pub struct Deviates {
+    normals: Normals,
+    pairs: u64,
+    second: Option<f64>,
+}
+
+impl Deviates {
+    /// The numbers of this seed.
+    pub fn new(seed: u64) -> Deviates {
+        Deviates {
+            normals: Normals::new(seed, Stream::Deviates),
+            pairs: 0,
+            second: None,
+        }
+    }
+
+    /// The next number.
+    pub fn draw(&mut self) -> f64 {
+        self.second.take().unwrap_or_else(|| {
+            let (first, second) = self.normals.pair(self.pairs);
+            self.pairs += 1;
+            self.second = Some(second);
+            first
+        })
     }
 }
 

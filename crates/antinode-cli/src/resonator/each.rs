@@ -3,17 +3,17 @@
 use std::f64::consts::PI;
 use std::io::{self, Write};
 
+use antinode_ringdown::resonator::Measured;
 use serde::ser::SerializeStruct;
 use serde::{Serialize, Serializer};
 
-use super::found::Measured;
 use super::quantities::{Row, quantities};
 use super::{Results, results};
 use crate::digits::{fixed, significant, with_small_std};
 use crate::failure::Failure;
 use crate::options::Format;
 use crate::result_file::ResultFile;
-use crate::runs::{Runs, driven};
+use crate::runs::{Runs, rows_in};
 use crate::serialized;
 
 /// What `--help` says of the columns.
@@ -88,15 +88,14 @@ impl Serialize for Line {
 /// Prints a line for each recording, and the warnings for each. An error if no resonator explains the rows of one, with all others printed.
 pub fn run(rows: Runs, format: Format, file: &ResultFile) -> Result<(), Failure> {
     let mut told = Vec::new();
-    rows.write_notes(&mut told)?;
+    rows.write_notes(&rows.runs, &mut told)?;
     let mut lines = Vec::new();
     let mut unexplained = None;
     for (name, rows) in rows.by_recording() {
-        let count = rows.used();
+        let count = rows_in(&rows.runs);
         let line = match results(rows, &name) {
-            Ok((found, left_out)) => {
+            Ok(found) => {
                 let mut notes = Vec::new();
-                driven::warn(&mut notes, &left_out)?;
                 super::write_notes(&mut notes, &found)?;
                 let notes = String::from_utf8_lossy(&notes);
                 for note in notes.lines() {
@@ -153,13 +152,13 @@ fn line(file: String, results: &Results) -> Line {
     let is_of_run = |column: [&str; 2]| [DECAY_TIME, QUALITY_FACTOR].contains(&column);
     Line {
         file,
-        rows: results.rows.used(),
-        runs: results.rows.runs.len(),
+        rows: rows_in(&results.resonance.runs),
+        runs: results.resonance.runs.len(),
         quantities: COLUMNS.map(|column| {
             let [name, _] = column;
             of(None, name).or_else(|| of(longest, name).filter(|_| is_of_run(column)))
         }),
-        residual_over_noise: Some(significant(results.found.residual, 6)),
+        residual_over_noise: Some(significant(results.resonance.found.residual, 6)),
         warnings: 0,
     }
 }

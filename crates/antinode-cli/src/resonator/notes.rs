@@ -3,14 +3,13 @@
 use std::f64::consts::PI;
 use std::io::{self, Write};
 
-use super::by_energy::ByEnergy;
-use super::found::Found;
-use super::frequency::Frequency;
-use super::model::Damping;
-use super::{DECAY_SEEN, Results};
+use antinode_ringdown::resonator::{ByEnergy, DECAY_SEEN, Damping, Found, Frequency, Resonance};
+use antinode_ringdown::{BEYOND_NOISE, Run, turn};
+
+use super::Results;
 use crate::digits::counted;
 use crate::median::ends;
-use crate::runs::{BEYOND_NOISE, Run, turn};
+use crate::runs::{rows_in, warn_of_driven};
 
 /// Runs without a decay that are named, at most.
 const MAX_NAMED: usize = 5;
@@ -24,37 +23,48 @@ const ENOUGH_STILL: usize = 2;
 
 /// Writes what the numbers leave open.
 pub fn write_notes(out: &mut impl Write, results: &Results) -> io::Result<()> {
+    let Resonance {
+        driven,
+        found,
+        frequency,
+        ..
+    } = &results.resonance;
+    warn_of_driven(out, driven)?;
     note_runs(out, results)?;
     note_splits(out, results)?;
-    note_others(out, &results.frequency)?;
-    note_frequency(out, &results.frequency)?;
-    note_damping(out, &results.found)?;
-    if results.found.model.is_unsteady() {
+    note_others(out, frequency)?;
+    note_frequency(out, frequency)?;
+    note_damping(out, found)?;
+    if found.is_unsteady() {
         writeln!(
             out,
             "no steady rotation explains the rows: pattern angles are taken from the rows, and their drift is not used to find the splits"
         )?;
     }
-    note_misfit(out, &results.found)
+    note_misfit(out, found)
 }
 
 /// Writes which runs are not listed, and which do not decay.
 fn note_runs(out: &mut impl Write, results: &Results) -> io::Result<()> {
-    let Results { rows, listed, .. } = results;
-    rows.write_notes(out)?;
-    let others = rows.runs.len() - listed.len();
+    let Results {
+        rows,
+        resonance,
+        listed,
+    } = results;
+    rows.write_notes(&resonance.runs, out)?;
+    let others = resonance.runs.len() - listed.len();
     if others > 0 {
         let of_listed: usize = results.listed().map(|run| run.rows.len()).sum();
         writeln!(
             out,
             "not listed: {} with {} rows, too short or too noisy to show a decay alone; the resonator's values include them",
             counted(others as u64, "run"),
-            rows.used() - of_listed
+            rows_in(&resonance.runs) - of_listed
         )?;
     }
     let (mut growing, mut steady) = (Vec::new(), Vec::new());
     for (index, &run) in listed.iter().enumerate() {
-        let (decay, std) = results.found.decay_of_run(run);
+        let (decay, std) = resonance.found.decay_of_run(run);
         if decay < -DECAY_SEEN * std {
             growing.push(index + 1);
         } else if decay < DECAY_SEEN * std {
@@ -101,14 +111,14 @@ fn warn_of_runs(out: &mut impl Write, runs: &[usize], [one, several]: [&str; 2])
 
 /// Writes if the splits are not determined, or if flaws of the pick-offs look like them.
 fn note_splits(out: &mut impl Write, results: &Results) -> io::Result<()> {
-    if results.found.resonator().is_none() {
+    if results.resonance.found.resonator().is_none() {
         writeln!(
             out,
             "the rows do not determine the splits of damping and frequency: give ring-downs at pattern angles of 0°, 22.5° and 45°, or of a \
              pattern that turns by 45° or more; the mean frequency is the one along the patterns, which a split shifts"
         )?;
     } else if let Some(rate) = one_way(results) {
-        let (frequency, _) = results.frequency.mean;
+        let (frequency, _) = results.resonance.frequency.mean;
         writeln!(
             out,
             "warning: the pattern turns only one way, and remaining flaws of the pick-offs then look like splits: a gain ratio that is 0.1 % \
@@ -116,7 +126,9 @@ fn note_splits(out: &mut impl Write, results: &Results) -> io::Result<()> {
             4e-3 * rate,
             4e-8 * rate * frequency
         )?;
-    } else if is_one_pattern(results) && results.found.model.damping == Damping::Steady {
+    } else if is_one_pattern(&results.resonance)
+        && results.resonance.found.damping() == Damping::Steady
+    {
         writeln!(
             out,
             "warning: only one pattern that is not turned shows the splits, and damping that changes by 1 % meanwhile looks like a split of \
@@ -143,13 +155,13 @@ fn one_way(results: &Results) -> Option<f64> {
 }
 
 /// True if all patterns stand where the first one does, and rotation turns none far: the splits are found from how they move it.
-fn is_one_pattern(results: &Results) -> bool {
-    let Results { rows, found, .. } = results;
-    let Some(resonator) = found.resonator().filter(|_| !found.model.is_unsteady()) else {
+fn is_one_pattern(resonance: &Resonance) -> bool {
+    let Resonance { runs, found, .. } = resonance;
+    let Some(resonator) = found.resonator().filter(|_| !found.is_unsteady()) else {
         return false;
     };
-    let first = rows.runs[0].rows[0].angle;
-    let mut all = rows.runs.iter().zip(resonator.rotations);
+    let first = runs[0].rows[0].angle;
+    let mut all = runs.iter().zip(resonator.rotations);
     all.all(|(run, (rotation, _))| {
         let apart = turn(run.rows[0].angle - first);
         apart.abs() < TURNS && (rotation * run.seconds()).abs() < TURNS
@@ -208,7 +220,7 @@ fn note_frequency(out: &mut impl Write, frequency: &Frequency) -> io::Result<()>
 
 /// Warns if the damping changes, and says what the numbers then are.
 fn note_damping(out: &mut impl Write, found: &Found) -> io::Result<()> {
-    let what = match found.model.damping {
+    let what = match found.damping() {
         Damping::Steady => return Ok(()),
         Damping::ByEnergy => {
             "with the amplitude, or pick-offs or converter are nonlinear: decay times are those of small waves"

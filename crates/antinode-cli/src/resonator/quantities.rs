@@ -3,11 +3,12 @@
 use std::f64::consts::{PI, TAU};
 use std::io::{self, Write};
 
+use antinode_ringdown::resonator::{Measured, Resonance};
 use serde::Serialize;
 
 use super::Results;
-use super::found::Measured;
 use crate::digits::{fixed, significant, significant_or_known, with_small_std};
+use crate::runs::{named, rows_in};
 
 /// Deviations below which a split has no angle.
 const SPLIT_SEEN: f64 = 3.0;
@@ -148,9 +149,12 @@ impl<'a> Row<'a> {
 
 /// All quantities, of each run listed and then of the resonator.
 pub fn quantities(results: &Results) -> Vec<Quantity> {
-    let Results {
-        found, frequency, ..
-    } = results;
+    let Resonance {
+        runs,
+        found,
+        frequency,
+        ..
+    } = &results.resonance;
     let mut list = Vec::new();
     let mut add = |run, kind, (value, std): Measured| {
         list.push(Quantity {
@@ -169,7 +173,7 @@ pub fn quantities(results: &Results) -> Vec<Quantity> {
             add(run, kind, value);
         }
         add(run, FREQUENCY, of_run);
-        let seconds = results.rows.runs[place].seconds();
+        let seconds = runs[place].seconds();
         if let Some(drift) = found.decay_drift(place, seconds) {
             add(run, DECAY_DRIFT, drift);
         }
@@ -177,7 +181,7 @@ pub fn quantities(results: &Results) -> Vec<Quantity> {
             add(run, ROTATION, resonator.rotations[place]);
         }
         add(run, DRIFT, frequency.drifts[place]);
-        let count = results.rows.runs[place].rows.len();
+        let count = runs[place].rows.len();
         add(run, RESIDUAL, found.residual_of_run(place, count));
     }
     add(None, FREQUENCY, frequency.mean);
@@ -244,18 +248,27 @@ pub fn table(
     results: &Results,
     quantities: &[Quantity],
 ) -> io::Result<()> {
-    let Results { rows, listed, .. } = results;
-    writeln!(out, "{name}: {} of {} rows", rows.used(), rows.rows)?;
+    let Results {
+        rows,
+        resonance,
+        listed,
+    } = results;
+    writeln!(
+        out,
+        "{name}: {} of {} rows",
+        rows_in(&resonance.runs),
+        rows.rows
+    )?;
     for of in quantities.chunk_by(|one, next| one.run == next.run) {
         match of[0].run {
             Some(index) => {
-                let run = &rows.runs[listed[index]];
+                let run = &resonance.runs[listed[index]];
                 let turned = fixed(1, run.turned().to_degrees());
                 writeln!(
                     out,
                     "run {}: {}, the pattern at {}° turns by {}{turned}°",
                     index + 1,
-                    run.named(),
+                    named(run),
                     fixed(1, run.rows[0].angle.to_degrees()),
                     if turned.starts_with('-') { "" } else { "+" },
                 )?;

@@ -93,95 +93,6 @@ fn flagged_rows_are_left_out() {
 }
 
 #[test]
-fn a_wave_that_jumps_across_rows_left_out_begins_another_run() {
-    let torn = |k| if k == 20 { "misfit" } else { "" };
-    // Lengths of the runs if a_A jumps by a share, or a_B or θ by this much.
-    let jump = |main: f64, quadrature: f64, angle: f64, flags: fn(usize) -> &'static str| {
-        let text: String = (0..40)
-            .map(|k| {
-                let moved = f64::from(u8::from(k >= 20));
-                let time = 0.01 * f64::from(k);
-                let noise = 0.001 * (7.3 * f64::from(k)).sin();
-                format!(
-                    "a,{time},{},{},{},5332,0.001,0.001,0.001,{}\n",
-                    0.5 * (1.0 + moved * main) * (1.0 - 0.1 * time) + noise,
-                    0.02 + moved * quadrature - noise,
-                    0.002 * f64::from(k) + moved * angle + noise,
-                    flags(k as usize)
-                )
-            })
-            .collect();
-        lengths(&read(&text))
-    };
-    assert_eq!(jump(0.0, 0.0, 0.0, torn), [39]);
-    for (main, quadrature, angle) in [
-        (0.06, 0.0, 0.0),
-        (-0.06, 0.0, 0.0),
-        (0.0, 0.03, 0.0),
-        (0.0, 0.0, 0.06),
-    ] {
-        assert_eq!(jump(main, quadrature, angle, torn), [20, 19]);
-    }
-    // A jump between clean rows is seen too, and its row left out; not at a circle, where amplitudes change places.
-    assert_eq!(jump(0.06, 0.0, 0.0, |_| ""), [19, 20]);
-    let circle = |k| if k == 20 { "circular" } else { "" };
-    assert_eq!(jump(0.06, 0.0, 0.0, circle), [39]);
-}
-
-#[test]
-fn a_wave_that_jumps_across_missing_rows_begins_another_run() {
-    // Reports that a line has lost, at a jump of a_A.
-    let read = |missing: std::ops::Range<usize>, jump: f64| {
-        let rows = (0..60).filter(|k| !missing.contains(k)).map(|k| {
-            let moved = if k < 30 { 0.0 } else { jump };
-            let main = (1.0 + moved) * (-1e-3 * k as f64).exp();
-            let noise = 1e-5 * (7.3 * k as f64).sin();
-            format!(
-                "a,{},{},0.02,0.3,5332,1e-5,1e-5,1e-5,\n",
-                0.01 * k as f64,
-                main + noise
-            )
-        });
-        lengths(&read(&rows.collect::<String>()))
-    };
-    for missing in [30..31, 29..31, 28..31, 27..33, 25..32] {
-        let [before, after] = [missing.start, 60 - missing.end];
-        assert_eq!(read(missing.clone(), 0.05), [before, after]);
-        assert_eq!(read(missing, 0.0), [before + after]);
-    }
-}
-
-#[test]
-fn a_jump_is_also_seen_after_rows_with_large_deviations() {
-    let read = |jump: f64| {
-        let text: String = (0..60)
-            .map(|k| {
-                let (moved, flag) = match k {
-                    0..25 => (0.0, ""),
-                    25 => (0.0, "misfit"),
-                    _ => (jump, ""),
-                };
-                // A burst that goes on counts as noise.
-                let noise = if (26..29).contains(&k) { 50.0 } else { 1.0 };
-                let main = 0.5 * (-1e-3 * f64::from(k)).exp() * (1.0 + moved);
-                let [main, std] = [
-                    main + 1e-5 * noise * (7.3 * f64::from(k)).sin(),
-                    1e-5 * noise,
-                ];
-                format!(
-                    "a,{},{main},0.02,0.3,5332,{std},{std},{std},{flag}\n",
-                    0.01 * f64::from(k)
-                )
-            })
-            .collect();
-        lengths(&read(&text))
-    };
-    assert_eq!(read(0.0), [59]);
-    // The rows that may belong to either side are left out.
-    assert_eq!(read(0.003), [25, 31]);
-}
-
-#[test]
 fn an_angle_is_known_modulo_a_quarter_turn() {
     let wrapped = |text: &str| text.replace(",1.6,", ",0.029203673205103,");
     let text = rows("a", 41, 0.08, |_| "");
@@ -287,7 +198,7 @@ fn the_times_of_rows_are_told_if_none_is_asked_for() {
 /// What is noted of these rows.
 fn notes(all: &Runs) -> String {
     let mut notes = Vec::new();
-    all.write_notes(&mut notes).unwrap();
+    all.write_notes(&all.runs, &mut notes).unwrap();
     String::from_utf8(notes).unwrap()
 }
 
@@ -324,72 +235,22 @@ fn a_short_part_of_a_recording_repeats_it() {
 }
 
 #[test]
-fn rows_that_are_kept_do_not_overlap() {
-    let header = HEADER.replace("flags", "decay_rate_std_s,flags");
-    // Windows of 1 s, by their deviations.
-    let of_rate = 12f64.sqrt() * 0.001 / 0.5;
-    for (step, kept_every) in [(0.101, 10), (0.1, 10), (0.31, 4), (0.95, 2), (0.99, 1)] {
-        let text: String = (0..400)
-            .map(|k| {
-                let time = step * f64::from(k);
-                format!("a,{time},0.5,0.02,0.1,5332,0.001,0.001,0.001,{of_rate},\n")
-            })
-            .collect();
-        let mut all = runs(0.1);
-        add(&mut all, &(header.clone() + &text)).unwrap();
-        let kept = 400usize.div_ceil(kept_every);
-        assert_eq!(
-            (lengths(&all), all.overlapping),
-            (vec![kept], 400 - kept),
-            "{step}"
-        );
-    }
-}
-
-#[test]
-fn a_pattern_that_turns_to_and_fro_turns_both_ways() {
-    let turns = |angles: &[f64]| {
-        let rows = angles
-            .iter()
-            .enumerate()
-            .map(|(k, angle)| format!("a,{k},0.5,0.02,{angle},5332,0.001,0.001,0.001,\n"));
-        let mut all = runs(1.0);
-        add(&mut all, &(HEADER.to_owned() + &rows.collect::<String>())).unwrap();
-        let [back, forth] = all.runs[0].turns();
-        [back, forth].map(|turn| (turn * 10.0).round() / 10.0)
+fn a_few_driven_runs_are_named_and_the_others_counted() {
+    let run = read(&rows("a", 20, 0.01, |_| "")).runs.remove(0);
+    let told = |count: usize| {
+        let mut told = Vec::new();
+        warn_of_driven(&mut told, &vec![run.clone(); count]).unwrap();
+        String::from_utf8(told).unwrap()
     };
-    let forth: Vec<f64> = (0..20).map(|k| 0.5 * f64::from(k)).collect();
-    assert_eq!(turns(&forth), [0.0, 9.5]);
-    let back: Vec<f64> = forth.iter().rev().copied().collect();
-    assert_eq!(turns(&back), [-9.5, 0.0]);
-    // Further forth after it came back half of the way.
-    let both: Vec<f64> = [&forth[..], &back[1..10], &forth[10..]].concat();
-    assert_eq!(turns(&both), [-4.5, 9.5]);
-}
-
-#[test]
-fn rows_flagged_misfit_alone_show_the_way_of_the_pattern() {
-    let bow = |flags: &str| {
-        let row = |k: usize| {
-            let begun = k as f64 - 14.0;
-            let angle = 1e-3 * begun.clamp(0.0, 7.0).powi(2) + 0.014 * (begun - 7.0).max(0.0);
-            let flags = match k {
-                15..18 => "misfit",
-                18..21 => flags,
-                _ => "",
-            };
-            let time = 0.01 * k as f64;
-            format!("a,{time},0.5,0.02,{angle},5332,0.001,0.001,0.01,{flags}\n")
-        };
-        let all = read(&(0..40).map(row).collect::<String>());
-        assert_eq!(lengths(&all), [34]);
-        let [others, next] = [14, 15].map(|index| all.runs[0].rows[index].bow);
-        assert_eq!(others, [0.0; BOWS]);
-        next
-    };
-    let [first, ..] = bow("misfit");
-    // −θ̈ T²/2.
-    assert!((first + 0.049).abs() < 1e-3, "{first}");
-    assert_eq!(bow("circular"), [0.0; BOWS]);
-    assert_eq!(bow("circular+misfit"), [0.0; BOWS]);
+    assert_eq!(told(0), "");
+    let named = "a, 0.2 s from 0.0 s on";
+    let one = told(1);
+    assert!(
+        one.starts_with("warning: left out: 1 run in which"),
+        "{one}"
+    );
+    assert!(one.ends_with(&format!("in others: {named}\n")), "{one}");
+    let seven = told(7);
+    assert_eq!(seven.matches(named).count(), MAX_NAMED);
+    assert!(seven.ends_with("; and 2 more\n"), "{seven}");
 }

@@ -135,11 +135,11 @@ fn line(rows: &[[f64; 2]], lines: &[f64]) -> Option<[f64; 2]> {
 mod tests {
     use super::super::row_scatter::tests::row;
     use super::*;
-    use crate::deviates::Deviates;
+    use antinode_sim::Deviates;
 
     /// The warning for this many rows, each first changed according to its time.
     fn warning(hum: bool, count: u64, change: impl Fn(f32, &mut Estimate)) -> Option<String> {
-        let (mut ripple, mut deviates) = (MainsRipple::new(hum), Deviates(5));
+        let (mut ripple, mut deviates) = (MainsRipple::new(hum), Deviates::new(5));
         for index in 0..count {
             let mut row = row(index, 1.0, &mut deviates);
             change(row.time as f32, &mut row);

@@ -59,7 +59,7 @@ mod tests {
 
     use super::super::row_scatter::tests::row;
     use super::*;
-    use crate::deviates::Deviates;
+    use antinode_sim::Deviates;
 
     /// The warning for this many rows of a pattern at this angle, rad, with these amplitudes and their deviation.
     fn warning(
@@ -68,7 +68,7 @@ mod tests {
         [main, quadrature]: [f64; 2],
         deviation: f64,
     ) -> Option<String> {
-        let (mut without_wave, mut deviates) = (PickOffWithoutWave::default(), Deviates(1));
+        let (mut without_wave, mut deviates) = (PickOffWithoutWave::default(), Deviates::new(1));
         for index in 0..rows {
             let mut near = |value: f64, by: f64| value + by * deviates.draw();
             without_wave.see(&Estimate {
@@ -78,7 +78,7 @@ mod tests {
                 main_amplitude_std: deviation as f32,
                 quadrature_amplitude_std: deviation as f32,
                 angle_std: (0.5 * deviation / main) as f32,
-                ..row(index, 0.0, &mut Deviates(0))
+                ..row(index, 0.0, &mut Deviates::new(0))
             });
         }
         without_wave.warning()
@@ -118,7 +118,7 @@ mod tests {
                 main_amplitude: if is_lost { f32::NAN } else { 0.5 },
                 quadrature_amplitude: 0.0,
                 angle: 0.0,
-                ..row(index, 0.0, &mut Deviates(0))
+                ..row(index, 0.0, &mut Deviates::new(0))
             });
         }
         assert!(without_wave.warning().is_some());

@@ -54,7 +54,7 @@ impl RoundedOffset {
 mod tests {
     use super::super::row_scatter::tests::row;
     use super::*;
-    use crate::deviates::Deviates;
+    use antinode_sim::Deviates;
 
     /// The warning for this many rows beside an amplitude of 0.6, one in `every` of them with this residual, the others with noise.
     fn warning(
@@ -64,7 +64,7 @@ mod tests {
         rows: u64,
         every: u64,
     ) -> Option<String> {
-        let (mut rounded, mut deviates) = (RoundedOffset::default(), Deviates(1));
+        let (mut rounded, mut deviates) = (RoundedOffset::default(), Deviates::new(1));
         for index in 0..rows {
             let mut row = row(index, 1.0, &mut deviates);
             row.residual_rms = if index % every == 0 { residual } else { 1.0 };

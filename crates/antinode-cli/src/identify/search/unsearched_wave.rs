@@ -188,7 +188,7 @@ mod tests {
     use std::f64::consts::TAU;
 
     use super::*;
-    use crate::deviates::Deviates;
+    use antinode_sim::Deviates;
 
     const RATE: f64 = 1e5;
 
@@ -199,7 +199,7 @@ mod tests {
 
     /// The same for tones with this decay time, in samples.
     fn told_of_decaying(tones: &[(f64, f64)], noise: f64, decay: f64) -> Option<String> {
-        let mut deviates = Deviates(1);
+        let mut deviates = Deviates::new(1);
         let mut unsearched = UnsearchedWave::default();
         let mut pairs: Vec<[f32; 2]> = (0..150_000)
             .map(|k| {

@@ -59,7 +59,7 @@ const HEAD: usize = 1 << 16;
 #[test]
 fn rounded_times_give_the_rate() {
     for rate in [96_000.0, 100_000.0, 99_999.0, 44_100.0, 65_536.0, 1e6 / 3.0] {
-        for start in [0.0, 3.7, 1000.0] {
+        for start in [3.7, 1000.0] {
             for decimals in [7, 9, 12] {
                 let found = run(
                     &times(80_000, rate, start, |t| format!("{t:.decimals$}")),
@@ -242,16 +242,16 @@ fn single_precision_is_not_uneven_sampling() {
         |t| format!("{t:.10}"),
     ];
     prints.into_par_iter().for_each(|print| {
-        for start in [0.0, 7.3] {
+        for start in [0.0, 7.3, 24.0] {
             let single = |t: f64| print(t as f32);
-            let text = times(3_000_000, 100_000.0, start, single);
+            let text = times(500_000, 100_000.0, start, single);
             let found = run(&text, HEAD).unwrap().unwrap();
             assert!((found / 100_000.0 - 1.0).abs() < 1e-5, "{found}");
             // A lost sample is found all the same.
             let mut text = text;
-            text.remove(2_000_000);
+            text.remove(400_000);
             let (index, fault) = run(&text, HEAD).unwrap_err();
-            assert_eq!(index, 2_000_000);
+            assert_eq!(index, 400_000);
             assert_eq!(fault, "1 lost");
         }
         // Beyond 128 s single precision gives each time about twice.

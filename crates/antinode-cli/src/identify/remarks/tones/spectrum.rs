@@ -155,11 +155,11 @@ impl Spectrum {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::deviates::Deviates;
+    use antinode_sim::Deviates;
 
     /// Pairs of noise of this rms, and tones: turns per pair, and amplitudes in both signals.
     fn pairs(count: usize, noise: f64, seed: u64, tones: &[(f64, [f64; 2])]) -> Vec<[f32; 2]> {
-        let mut deviates = Deviates(seed);
+        let mut deviates = Deviates::new(seed);
         (0..count)
             .map(|k| {
                 let wave = |signal: usize| {
@@ -195,7 +195,7 @@ mod tests {
     #[test]
     fn tones_are_found_with_their_frequencies_and_amplitudes() {
         let length = 1 << 12;
-        let mut deviates = Deviates(7);
+        let mut deviates = Deviates::new(7);
         for seed in 1..=30 {
             // Beside a wave of amplitude 1, 30 lines and more away.
             let place = 300.0 + 1000.0 * deviates.draw().abs().min(1.7);

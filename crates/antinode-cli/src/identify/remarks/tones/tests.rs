@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::super::row_scatter::tests::row;
 use super::*;
-use crate::deviates::Deviates;
+use antinode_sim::Deviates;
 
 const RATE: f64 = 1e5;
 
@@ -21,7 +21,7 @@ fn cause_of_turning(
     settings: &Settings,
 ) -> Option<String> {
     let mut seen = Tones::default();
-    let mut deviates = Deviates(3);
+    let mut deviates = Deviates::new(3);
     for index in 0..300u64 {
         let pairs = (200 * index..200 * (index + 1)).map(|k| {
             let of =

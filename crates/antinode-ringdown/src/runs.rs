@@ -1,0 +1,34 @@
+//! Rows of one recording, grouped into runs: spans of time in which the pattern moves without a break.
+
+pub(crate) mod driven;
+mod jump;
+mod recording;
+mod repeated;
+mod row;
+mod run;
+mod step;
+pub(crate) mod way;
+
+use std::f64::consts::FRAC_PI_2;
+
+pub use recording::Recording;
+pub(crate) use row::BOWS;
+pub use row::{Row, Window};
+pub use run::Run;
+
+/// Rms residual over the rows' own deviations, from which on there should be a warning that it is more than noise.
+pub const BEYOND_NOISE: f64 = 2.0;
+/// The same from which on a fit does not explain the rows.
+pub(crate) const EXPLAINED: f64 = 1.5;
+/// Fewest rows of a run, which has four unknowns of its own.
+pub const MIN_ROWS: usize = 12;
+
+/// Change of an angle that is known modulo π/2, rad, reduced to −π/4 to π/4.
+pub fn turn(change: f64) -> f64 {
+    change - FRAC_PI_2 * (change / FRAC_PI_2).round()
+}
+
+/// One over 2πf, s/rad; 0, as if periods were infinitely short, where this is no frequency of a wave but stands for one unknown.
+pub(crate) fn per_radian(omega: f64) -> f64 {
+    if omega.abs() < 1.0 { 0.0 } else { 1.0 / omega }
+}

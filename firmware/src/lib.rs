@@ -41,7 +41,8 @@
 //! | `counts`, `wav`, `clocks` | the interrupt's counters; the position of samples in a WAV file; frequencies and dividers |
 //! | `hardware` | clocks, converters, DMA, line, watchdog, log, main loop: registers by their names in RM0090 |
 //! | `replay` | the emulator's source |
-//! | `bench`, `beside`, `load`, `codes` | kernels to measure, others to compare with, the whole pipeline, and samples for all of them |
+//! | `bench`, `beside`, `load`, `codes` | kernels to measure, others to compare with, the interrupt, and samples for all of them |
+//! | `application` | the whole pipeline to measure, with the line |
 //! | `marks`, `gauge`, `text` | begin and end of a measurement; counters and stack paint; the printed line |
 //!
 //! The modules above `hardware` do not depend on hardware, and are tested on the host too: `cargo test -p firmware --lib` and
@@ -65,6 +66,8 @@ pub mod settings;
 pub mod supervision;
 pub mod wav;
 
+#[cfg(all(target_os = "none", feature = "board"))]
+pub mod application;
 #[cfg(target_os = "none")]
 pub mod bench;
 #[cfg(target_os = "none")]
@@ -73,12 +76,16 @@ pub mod beside;
 pub mod codes;
 #[cfg(target_os = "none")]
 pub mod gauge;
-#[cfg(target_os = "none")]
+#[cfg(all(target_os = "none", feature = "board"))]
 pub mod hardware;
 #[cfg(target_os = "none")]
 pub mod load;
 #[cfg(target_os = "none")]
 pub mod marks;
+// The memory functions of the C library replace the compiler's in every image.
+#[cfg(target_os = "none")]
+#[path = "../../crates/antinode-capi/src/memory.rs"]
+mod memory;
 #[cfg(target_os = "none")]
 pub mod replay;
 #[cfg(target_os = "none")]

@@ -5,13 +5,13 @@
 use cortex_m_rt::entry;
 use firmware::pipeline::{Places, Queues};
 use firmware::settings::Arithmetic;
-use firmware::{load, marks};
+use firmware::{application, marks};
 
 #[entry]
 fn main() -> ! {
     static mut QUEUES: Queues<Arithmetic> = Queues::new();
     static mut PLACES: Places<'static, Arithmetic> = Places::new();
-    load::application(env!("CARGO_BIN_NAME"), QUEUES, PLACES)
+    application::run(env!("CARGO_BIN_NAME"), QUEUES, PLACES)
 }
 
 #[panic_handler]

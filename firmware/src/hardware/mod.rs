@@ -5,9 +5,6 @@ pub mod dual_adc;
 pub mod line;
 pub mod log;
 pub mod main_loop;
-// The memory functions of the C library replace the compiler's in every image.
-#[path = "../../../crates/antinode-capi/src/memory.rs"]
-mod memory;
 pub mod pair_clock;
 pub mod reset;
 pub mod ring;

@@ -9,7 +9,11 @@ use std::{env, fs, thread};
 use object::read::{Object, ObjectSegment};
 
 const TARGET: &str = "thumbv7em-none-eabihf";
+/// Profile of the kernels, which need none of a board's packages.
 const PROFILE: &str = "release";
+/// The whole instrument, which needs them, and the profile in which it is flashed.
+const WHOLE: &str = "application";
+const WHOLE_PROFILE: &str = "firmware";
 /// An emulated Cortex-M4 whose clock is that of its instructions, as the images' report expects.
 const EMULATOR: &str = "qemu-system-arm";
 const BOARD: &[&str] = &[
@@ -58,29 +62,47 @@ pub fn build(root: &Path) -> Result<Vec<Image>, String> {
     kernels.sort();
     let output = env::var_os("CARGO_TARGET_DIR").map_or(root.join("target"), PathBuf::from);
     let output = std::path::absolute(output).map_err(|fault| fault.to_string())?;
-    let mut cargo = Command::new(env::var_os("CARGO").unwrap_or("cargo".into()));
-    cargo
-        .current_dir(root)
-        .args(["build", "--quiet", "-p", "firmware", "--profile", PROFILE])
-        .args(["--target", TARGET, "--target-dir"])
-        .arg(&output);
-    for kernel in &kernels {
-        cargo.args(["--bin", &format!("bench_{kernel}")]);
+    for profile in [PROFILE, WHOLE_PROFILE] {
+        let mut cargo = Command::new(env::var_os("CARGO").unwrap_or("cargo".into()));
+        cargo
+            .current_dir(root)
+            .args(["build", "--quiet", "-p", "firmware", "--profile", profile])
+            .args(["--target", TARGET, "--target-dir"])
+            .arg(&output);
+        if profile == PROFILE {
+            cargo.arg("--no-default-features");
+        }
+        for kernel in kernels
+            .iter()
+            .filter(|kernel| profile_of(kernel) == profile)
+        {
+            cargo.args(["--bin", &format!("bench_{kernel}")]);
+        }
+        let built = cargo.status().map_err(|fault| format!("cargo: {fault}"))?;
+        if !built.success() {
+            return Err(format!(
+                "the images did not build; .ci/arm-target {TARGET} gets the target if that is what is missing"
+            ));
+        }
     }
-    let built = cargo.status().map_err(|fault| format!("cargo: {fault}"))?;
-    if !built.success() {
-        return Err(format!(
-            "the images did not build; .ci/arm-target {TARGET} gets the target if that is what is missing"
-        ));
-    }
-    let folder = output.join(TARGET).join(PROFILE);
+    let folder = output.join(TARGET);
     Ok(kernels
         .into_iter()
         .map(|kernel| Image {
-            elf: folder.join(format!("bench_{kernel}")),
+            elf: folder
+                .join(profile_of(&kernel))
+                .join(format!("bench_{kernel}")),
             kernel,
         })
         .collect())
+}
+
+fn profile_of(kernel: &str) -> &'static str {
+    if kernel == WHOLE {
+        WHOLE_PROFILE
+    } else {
+        PROFILE
+    }
 }
 
 impl Image {

@@ -20,6 +20,7 @@ const HEAD: &str = "\
 # What the core costs on a Cortex-M4F
 
 Written by `cargo bench-table --bless`; `cargo bench-table` fails where a cost is more than 3 % above this table.
+`application`, the whole instrument, is compiled as it is flashed, the others in the profile `release`.
 
 | column | meaning |
 |---|---|

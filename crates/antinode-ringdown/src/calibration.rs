@@ -7,7 +7,7 @@ mod solve;
 mod undriven;
 mod within_period;
 
-use crate::runs::{BEYOND_NOISE, Run};
+use crate::runs::{BEYOND_NOISE, Run, long_enough};
 pub use pick_offs::PickOffs;
 use solve::solve;
 pub use solve::{Decay, Error, Found, MIN_TURN_BACK};
@@ -29,12 +29,14 @@ pub struct Calibration {
 
 impl Calibration {
     /// Finds the pick-offs with which energy and quadrature of these runs run evenly. Their rows were identified with the calibration
-    /// `corrected`, and the pattern turns by [`MAX_TURN`] or less from row to row.
+    /// `corrected`, and the pattern turns by [`MAX_TURN`] or less from row to row. Runs of fewer than [`MIN_ROWS`](crate::MIN_ROWS) rows are
+    /// ignored.
     ///
     /// # Errors
     /// If the pattern turns too little in every run, and if no pick-offs explain the rows.
     pub fn of(runs: &[Run], corrected: PickOffs) -> Result<Self, Error> {
-        let every = moments(runs, &corrected);
+        let runs = long_enough(runs);
+        let every = moments(&runs, &corrected);
         let all = solve(&every, corrected);
         let (start, residual) = match &all {
             Ok(found) => (found.pick_offs, found.residual),
@@ -43,7 +45,7 @@ impl Calibration {
         };
         if residual > BEYOND_NOISE
             && let Some((found, [runs, driven])) =
-                without_driven(runs, &every, &corrected, (start, residual))
+                without_driven(&runs, &every, &corrected, (start, residual))
         {
             return Ok(Self {
                 runs,
@@ -52,7 +54,7 @@ impl Calibration {
             });
         }
         Ok(Self {
-            runs: runs.to_vec(),
+            runs: runs.into_owned(),
             driven: Vec::new(),
             found: all?,
         })

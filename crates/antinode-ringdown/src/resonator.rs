@@ -19,7 +19,7 @@ mod start;
 mod stretches;
 
 use crate::runs::driven::undriven;
-use crate::runs::{BEYOND_NOISE, Run};
+use crate::runs::{BEYOND_NOISE, Run, long_enough};
 pub use by_energy::ByEnergy;
 use fit::fit;
 pub use found::{Found, Measured, Resonator};
@@ -55,13 +55,14 @@ pub struct Resonance {
 }
 
 impl Resonance {
-    /// Finds the resonator whose waves come nearest to the rows of these runs, in which the pattern turns by π/8 or less from row to row;
-    /// `None` without runs, and if no resonator explains them.
+    /// Finds the resonator whose waves come nearest to the rows of these runs, in which the pattern turns by π/8 or less from row to row.
+    /// Runs of fewer than [`MIN_ROWS`](crate::MIN_ROWS) rows are ignored; `None` without others, and if no resonator explains them.
     pub fn of(runs: &[Run]) -> Option<Self> {
+        let runs = long_enough(runs);
         if runs.is_empty() {
             return None;
         }
-        let (found, [mut runs, driven]) = decaying(runs);
+        let (found, [mut runs, driven]) = decaying(&runs);
         let found = found?;
         Some(Self {
             frequency: frequency(&mut runs, &found),

@@ -9,6 +9,7 @@ mod run;
 mod step;
 pub(crate) mod way;
 
+use std::borrow::Cow;
 use std::f64::consts::FRAC_PI_2;
 
 pub use recording::Recording;
@@ -22,6 +23,16 @@ pub const BEYOND_NOISE: f64 = 2.0;
 pub(crate) const EXPLAINED: f64 = 1.5;
 /// Fewest rows of a run, which has four unknowns of its own.
 pub const MIN_ROWS: usize = 12;
+
+/// The runs of [`MIN_ROWS`] rows or more.
+pub(crate) fn long_enough(runs: &[Run]) -> Cow<'_, [Run]> {
+    let is_long = |run: &&Run| run.rows.len() >= MIN_ROWS;
+    if runs.iter().all(|run| is_long(&run)) {
+        runs.into()
+    } else {
+        runs.iter().filter(is_long).cloned().collect()
+    }
+}
 
 /// Change of an angle that is known modulo π/2, rad, reduced to −π/4 to π/4.
 pub fn turn(change: f64) -> f64 {

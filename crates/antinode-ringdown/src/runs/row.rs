@@ -129,6 +129,27 @@ fn increase_by_noise(travelling: f64, of_main: f64) -> f64 {
 }
 
 #[cfg(test)]
+impl Window {
+    /// A window at a time, s, with these a_A, a_B and θ and one deviation of all.
+    pub fn of(time: f64, [main, quadrature, angle]: [f64; 3], std: f64) -> Self {
+        Self {
+            time,
+            main_amplitude: main,
+            quadrature_amplitude: quadrature,
+            angle,
+            phase: None,
+            frequency: 5332.0,
+            main_amplitude_std: std,
+            quadrature_amplitude_std: std,
+            angle_std: std,
+            phase_std: f64::INFINITY,
+            frequency_std: f64::INFINITY,
+            decay_rate_std: f64::INFINITY,
+        }
+    }
+}
+
+#[cfg(test)]
 impl Row {
     /// A row with these a_A, a_B and θ and their deviations; its other values do not matter.
     pub fn of(time: f64, [main, quadrature, angle]: [f64; 3], deviations: [f64; 3]) -> Self {
@@ -196,20 +217,8 @@ mod tests {
                     (size + part()).hypot(part())
                 };
                 let (plus, minus) = (travelling(main + quadrature), travelling(main - quadrature));
-                let window = Window {
-                    time: 0.0,
-                    main_amplitude: 0.5 * (plus + minus),
-                    quadrature_amplitude: 0.5 * (plus - minus),
-                    angle: 0.0,
-                    phase: None,
-                    frequency: 5332.0,
-                    main_amplitude_std: std,
-                    quadrature_amplitude_std: std,
-                    angle_std: std,
-                    phase_std: f64::INFINITY,
-                    frequency_std: f64::INFINITY,
-                    decay_rate_std: f64::INFINITY,
-                };
+                let wave = [0.5 * (plus + minus), 0.5 * (plus - minus), 0.0];
+                let window = Window::of(0.0, wave, std);
                 let row = Row::from(&window);
                 let values = [
                     row.main - main,

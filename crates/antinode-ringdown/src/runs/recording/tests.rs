@@ -1,24 +1,6 @@
 use super::super::row::BOWS;
 use super::*;
 
-/// A window at a time, s, with these a_A, a_B and θ and one deviation of all.
-fn window(time: f64, [main, quadrature, angle]: [f64; 3], std: f64) -> Window {
-    Window {
-        time,
-        main_amplitude: main,
-        quadrature_amplitude: quadrature,
-        angle,
-        phase: None,
-        frequency: 5332.0,
-        main_amplitude_std: std,
-        quadrature_amplitude_std: std,
-        angle_std: std,
-        phase_std: f64::INFINITY,
-        frequency_std: f64::INFINITY,
-        decay_rate_std: f64::INFINITY,
-    }
-}
-
 /// The recording of these windows and their flags.
 fn read(windows: impl IntoIterator<Item = (Window, Flags)>, max_turn: f64) -> Recording {
     let mut recording = Recording::new("a", max_turn, Flags::REACQUIRED);
@@ -96,7 +78,7 @@ fn a_wave_that_jumps_across_rows_left_out_begins_another_run() {
                 0.002 * f64::from(k) + moved * angle + noise,
             ];
             let flags = if k == 20 { flags } else { Flags::empty() };
-            (window(time, wave, 0.001), flags)
+            (Window::of(time, wave, 0.001), flags)
         });
         lengths(&read(windows, 0.1))
     };
@@ -123,7 +105,7 @@ fn a_wave_that_jumps_across_missing_rows_begins_another_run() {
             let main = (1.0 + moved) * (-1e-3 * k as f64).exp();
             let noise = 1e-5 * (7.3 * k as f64).sin();
             let wave = [main + noise, 0.02, 0.3];
-            (window(0.01 * k as f64, wave, 1e-5), Flags::empty())
+            (Window::of(0.01 * k as f64, wave, 1e-5), Flags::empty())
         });
         lengths(&read(windows, 0.1))
     };
@@ -147,7 +129,7 @@ fn a_jump_is_also_seen_after_rows_with_large_deviations() {
             let std = if (26..29).contains(&k) { 5e-4 } else { 1e-5 };
             let main = 0.5 * (-1e-3 * f64::from(k)).exp() * (1.0 + moved);
             let wave = [main + std * (7.3 * f64::from(k)).sin(), 0.02, 0.3];
-            (window(0.01 * f64::from(k), wave, std), flags)
+            (Window::of(0.01 * f64::from(k), wave, std), flags)
         });
         lengths(&read(windows, 0.1))
     };
@@ -164,7 +146,7 @@ fn rows_that_are_kept_do_not_overlap() {
         let windows = (0..400).map(|k| {
             let window = Window {
                 decay_rate_std: of_rate,
-                ..window(step * f64::from(k), [0.5, 0.02, 0.1], 0.001)
+                ..Window::of(step * f64::from(k), [0.5, 0.02, 0.1], 0.001)
             };
             (window, Flags::empty())
         });
@@ -183,7 +165,7 @@ fn a_pattern_that_turns_to_and_fro_turns_both_ways() {
     let turns = |angles: &[f64]| {
         let windows = (0..).zip(angles).map(|(k, &angle)| {
             let wave = [0.5, 0.02, angle];
-            (window(f64::from(k), wave, 0.001), Flags::empty())
+            (Window::of(f64::from(k), wave, 0.001), Flags::empty())
         });
         let [back, forth] = read(windows, 1.0).runs[0].turns();
         [back, forth].map(|turn| (turn * 10.0).round() / 10.0)
@@ -210,7 +192,7 @@ fn rows_flagged_misfit_alone_show_the_way_of_the_pattern() {
             };
             let window = Window {
                 angle_std: 0.01,
-                ..window(0.01 * f64::from(k), [0.5, 0.02, angle], 0.001)
+                ..Window::of(0.01 * f64::from(k), [0.5, 0.02, angle], 0.001)
             };
             (window, flags)
         });

@@ -14,7 +14,6 @@ mod failure;
 mod given_rows;
 mod identify;
 mod interrupt;
-
 mod median;
 mod methods;
 mod options;

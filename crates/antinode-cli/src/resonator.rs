@@ -5,12 +5,10 @@ mod notes;
 mod quantities;
 mod rests;
 
-use std::f64::consts::PI;
 use std::io;
 use std::path::PathBuf;
 
-use antinode::Flags;
-use antinode_ringdown::resonator::Resonance;
+use antinode_ringdown::resonator::{BREAKS, MAX_TURN, Resonance};
 use antinode_ringdown::{MIN_ROWS, Run};
 use clap::Args;
 
@@ -24,10 +22,6 @@ use notes::write_notes;
 use quantities::{HELP, Row, quantities, table};
 use rests::rests;
 
-/// Turn of the pattern from row to row, at most, rad: half of that up to which the angle is unambiguous.
-const MAX_TURN: f64 = PI / 8.0;
-/// Flags of rows that end a run: the wave was excited anew, or samples are missing.
-const BREAKS: Flags = Flags::REACQUIRED.with(Flags::PHASE_JUMP).with(Flags::STEP);
 /// `antinode resonator`.
 #[derive(Debug, Args)]
 #[command(after_long_help = format!("{HELP}\n\n{}", each::HELP), allow_negative_numbers = true)]

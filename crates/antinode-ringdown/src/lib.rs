@@ -12,9 +12,9 @@
 //!
 //! # Example
 //! ```
-//! use antinode::{Flags, Identifier, Settings};
+//! use antinode::{Identifier, Settings};
 //! use antinode_ringdown::Recording;
-//! use antinode_ringdown::resonator::Resonance;
+//! use antinode_ringdown::resonator::{BREAKS, MAX_TURN, Resonance};
 //! use antinode_sim::{Flaws, Gyro, Wave};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -23,7 +23,7 @@
 //! let gyro = Gyro::new(wave, Flaws { noise: 0.01, ..Flaws::default() }, 100_000.0, 1)?;
 //!
 //! let mut identifier = Identifier::<f32, 200, 16>::new(Settings::new(100_000.0))?;
-//! let mut recording = Recording::new("gyro 7", 0.39, Flags::REACQUIRED);
+//! let mut recording = Recording::new("gyro 7", MAX_TURN, BREAKS);
 //! for pair in gyro.take(1_000_000) {
 //!     if let Some(estimate) = identifier.push(pair.map(|sample| sample as f32)) {
 //!         recording.see(&estimate);

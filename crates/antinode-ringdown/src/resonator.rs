@@ -18,6 +18,10 @@ mod rests;
 mod start;
 mod stretches;
 
+use std::f64::consts::FRAC_PI_8;
+
+use antinode::Flags;
+
 use crate::runs::driven::undriven;
 use crate::runs::{BEYOND_NOISE, Run, long_enough};
 pub use by_energy::ByEnergy;
@@ -28,6 +32,10 @@ use frequency::frequency;
 pub use informing::DECAY_SEEN;
 pub use model::Damping;
 
+/// Turn of the pattern from row to row, at most, rad: half of that up to which the angle is unambiguous.
+pub const MAX_TURN: f64 = FRAC_PI_8;
+/// Flags of rows that end a run: the wave was excited anew, or samples are missing.
+pub const BREAKS: Flags = Flags::REACQUIRED.with(Flags::PHASE_JUMP).with(Flags::STEP);
 /// Relative change of an amplitude per radian that the pattern turns, which is no drive: a gain ratio that is 30 % off causes it.
 const BY_FLAWS: f64 = 0.6;
 /// Rows that may be driven are left out if the residual of the others is that of noise, or below this share of that of all.
@@ -55,7 +63,7 @@ pub struct Resonance {
 }
 
 impl Resonance {
-    /// Finds the resonator whose waves come nearest to the rows of these runs, in which the pattern turns by π/8 or less from row to row.
+    /// Finds the resonator whose waves come nearest to the rows of these runs, in which the pattern turns by [`MAX_TURN`] or less from row to row.
     /// Runs of fewer than [`MIN_ROWS`](crate::MIN_ROWS) rows are ignored; `None` without others, and if no resonator explains them.
     pub fn of(runs: &[Run]) -> Option<Self> {
         let runs = long_enough(runs);

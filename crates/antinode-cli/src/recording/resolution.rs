@@ -180,11 +180,11 @@ mod tests {
         }
         // The same few values over and over, as a wave without noise has them.
         for period in 4..200 {
-            for phase in 0..10 {
+            for phase in 0..20 {
                 let sample =
-                    |k: usize| (TAU * k as f64 / period as f64 + 0.2 * phase as f64).cos() as f32;
+                    |k: usize| (TAU * k as f64 / period as f64 + 0.1 * phase as f64).cos() as f32;
                 let few: Vec<_> = (0..period).map(|k| [sample(k), 0.0]).collect();
-                let pairs: Vec<[f32; 2]> = few.into_iter().cycle().take(1 << 12).collect();
+                let pairs: Vec<[f32; 2]> = few.into_iter().cycle().take(1 << 14).collect();
                 assert_eq!(resolution(&pairs), None, "{period} {phase}");
             }
         }

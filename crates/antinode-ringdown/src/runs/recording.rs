@@ -14,7 +14,7 @@ const MIN_WORSE: f64 = 2.0;
 const MAX_VAGUE: usize = 20;
 
 /// A recording whose windows are taken one by one, in the order of their times.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Recording {
     name: String,
     /// The runs that have ended, of [`MIN_ROWS`] rows or more each.
@@ -47,9 +47,16 @@ impl Recording {
     pub fn new(name: &str, max_turn: f64, breaks: Flags) -> Self {
         Self {
             name: name.to_owned(),
+            runs: Vec::new(),
+            steps: Vec::new(),
+            overlapping: 0,
+            backward: 0,
             max_turn,
             breaks,
-            ..Self::default()
+            run: Run::default(),
+            torn: None,
+            circles: Vec::new(),
+            between: Vec::new(),
         }
     }
 

@@ -59,7 +59,7 @@ const HEAD: usize = 1 << 16;
 #[test]
 fn rounded_times_give_the_rate() {
     for rate in [96_000.0, 100_000.0, 99_999.0, 44_100.0, 65_536.0, 1e6 / 3.0] {
-        for start in [3.7, 1000.0] {
+        for start in [0.0, 3.7, 1000.0] {
             for decimals in [7, 9, 12] {
                 let found = run(
                     &times(80_000, rate, start, |t| format!("{t:.decimals$}")),

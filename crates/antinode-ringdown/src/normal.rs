@@ -38,10 +38,13 @@ impl Equations {
 
     /// Adds an equation of a run with a weight: its entries, as places and factors of unknowns, and the value seen.
     pub fn add_equation(&mut self, run: usize, entries: &[(usize, f64)], seen: f64, weight: f64) {
-        for &(i, left) in entries {
-            self.add_right(i, weight * left * seen);
-            for &(j, right) in entries {
-                self.add(run, [i, j], weight * left * right);
+        let within = self.within(run);
+        for &(j, right) in entries {
+            let weighed = weight * right;
+            self.right[j] += weighed * seen;
+            let mut column = self.matrices[run].column_mut(within(j));
+            for &(i, left) in entries {
+                column[within(i)] += weighed * left;
             }
         }
     }
@@ -53,16 +56,19 @@ impl Equations {
 
     /// Adds to the matrix entry of two unknowns, shared or of this run.
     pub fn add(&mut self, run: usize, [i, j]: [usize; 2], more: f64) {
-        let [i, j] = [i, j].map(|place| self.within(run, place));
+        let [i, j] = [i, j].map(self.within(run));
         self.matrices[run][(i, j)] += more;
     }
 
     /// The place of an unknown in the matrix of this run.
-    fn within(&self, run: usize, place: usize) -> usize {
-        if place < self.shared {
-            place
-        } else {
-            place - self.own * run
+    fn within(&self, run: usize) -> impl Fn(usize) -> usize + use<> {
+        let (shared, before) = (self.shared, self.own * run);
+        move |place| {
+            if place < shared {
+                place
+            } else {
+                place - before
+            }
         }
     }
 

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use libm::{sincos, sqrt};
-use nalgebra::SMatrix;
+use nalgebra::{SMatrix, SVector};
 
 use crate::wave::Wave;
 
@@ -81,29 +81,36 @@ fn fisher(wave: &Wave, samples: u32, middle: f64, sample_rate: f64) -> SMatrix<f
     let (a, b) = (truth.main_amplitude, truth.quadrature_amplitude);
     let (s2, c2) = sincos(2.0 * truth.angle);
     let n = f64::from(samples);
-    let mut fisher = SMatrix::<f64, 7, 7>::zeros();
+    // Derivatives of (1)-(3) by each unknown are sums of these five, with factors that are the same at all samples. Time in window lengths
+    // keeps the matrix well scaled.
+    let mut sums = SMatrix::<f64, 5, 5>::zeros();
     let (mut s, mut c) = sincos(-0.5 * omega * (n - 1.0) - truth.phase);
     let (sin_step, cos_step) = sincos(omega);
     for k in 0..samples {
-        // Derivatives of (1)-(3) by tau and theta, then by each unknown. Time in window lengths keeps the matrix well scaled.
         let share = (f64::from(k) - 0.5 * (n - 1.0)) / n;
-        let c_tau = -a * s * c2 - b * c * s2;
-        let d_tau = -a * s * s2 + b * c * c2;
-        let c_angle = -2.0 * (a * c * s2 + b * s * c2);
-        let d_angle = 2.0 * (a * c * c2 - b * s * s2);
-        let rows = SMatrix::<f64, 2, 7>::from_columns(&[
-            [c * c2, c * s2].into(),
-            [-s * s2, s * c2].into(),
-            [c_angle, d_angle].into(),
-            [share * c_tau, share * d_tau].into(),
-            [-c_tau, -d_tau].into(),
-            [1.0, 0.0].into(),
-            [0.0, 1.0].into(),
-        ]);
-        fisher += rows.transpose() * rows;
+        let parts = SVector::from([c, s, share * c, share * s, 1.0]);
+        sums += parts * parts.transpose();
         (s, c) = (s * cos_step + c * sin_step, c * cos_step - s * sin_step);
     }
-    fisher
+    let of_c = SMatrix::<f64, 5, 7>::from_columns(&[
+        [c2, 0.0, 0.0, 0.0, 0.0].into(),
+        [0.0, -s2, 0.0, 0.0, 0.0].into(),
+        [-2.0 * a * s2, -2.0 * b * c2, 0.0, 0.0, 0.0].into(),
+        [0.0, 0.0, -b * s2, -a * c2, 0.0].into(),
+        [b * s2, a * c2, 0.0, 0.0, 0.0].into(),
+        [0.0, 0.0, 0.0, 0.0, 1.0].into(),
+        SVector::zeros(),
+    ]);
+    let of_d = SMatrix::<f64, 5, 7>::from_columns(&[
+        [s2, 0.0, 0.0, 0.0, 0.0].into(),
+        [0.0, c2, 0.0, 0.0, 0.0].into(),
+        [2.0 * a * c2, -2.0 * b * s2, 0.0, 0.0, 0.0].into(),
+        [0.0, 0.0, b * c2, -a * s2, 0.0].into(),
+        [-b * c2, a * s2, 0.0, 0.0, 0.0].into(),
+        SVector::zeros(),
+        [0.0, 0.0, 0.0, 0.0, 1.0].into(),
+    ]);
+    of_c.transpose() * sums * of_c + of_d.transpose() * sums * of_d
 }
 
 #[cfg(test)]

@@ -65,11 +65,11 @@ static void take(const uint32_t *from, uint32_t count)
     }
 }
 
-/* Sine of a phase in 2^-32 turns, within 0.1 %. */
-static float sine(uint32_t phase)
+/* `size` times the sine, within 0.1 %, of a phase in 2^-32 turns; in integers, for most of the cores have no others. */
+static int32_t sine(int32_t size, uint32_t phase)
 {
-    const float x = (float)(int32_t)phase / 2147483648.0f, y = 4.0f * x * (1.0f - (x < 0 ? -x : x));
-    return y + 0.225f * y * ((y < 0 ? -y : y) - 1.0f);
+    const int32_t x = (int32_t)phase >> 16, y = x * (32768 - (x < 0 ? -x : x)) >> 13;
+    return size * (y + (y * ((y < 0 ? -y : y) - 32768) >> 15) * 225 / 1000) >> 15;
 }
 
 /*
@@ -83,8 +83,8 @@ static int tones(const antinode_settings_t *settings, uint32_t period, uint32_t 
     CALL(init)(&gyro, settings);
     for (at = 0; at < PAIRS / 6; at += HALF_BUFFER) {
         for (i = 0; i < HALF_BUFFER; i++) {
-            const float x = 1000.0f * (sine(p) + sine(q));
-            pushed[i] = (uint16_t)(int16_t)x | (uint32_t)(uint16_t)(int16_t)(0.6f * x) << 16;
+            pushed[i] = (uint16_t)(sine(1000, p) + sine(1000, q));
+            pushed[i] |= (uint32_t)(sine(600, p) + sine(600, q)) << 16;
             p += (uint32_t)((100ull << 32) / period);
             q += (uint32_t)((100ull << 32) / other);
         }
@@ -205,8 +205,8 @@ int main(void)
         const uint32_t kind = at / 1024 % 4, period = 5 + at / 4096 * 7;
         word = random_word();
         if (kind > 1) {
-            word = (uint16_t)(int16_t)(1500 * sine(at * (0xffffffffu / period)));
-            word |= (uint32_t)(uint16_t)(int16_t)(1500 * sine(at * (0xffffffffu / period / 10 * (kind * 4 + 1)))) << 16;
+            word = (uint16_t)sine(1500, at * (0xffffffffu / period));
+            word |= (uint32_t)sine(1500, at * (0xffffffffu / period / 10 * (kind * 4 + 1))) << 16;
         }
         take(kind == 1 ? _binary_codes_bin_start + at % RING : &word, 1);
         is_told = 1; /* _solve asks for a search when it finds no wave in noise */

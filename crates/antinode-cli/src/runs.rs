@@ -214,17 +214,15 @@ impl Runs {
             let window = places.window(record).map_err(|told| rows.unusable(told))?;
             recordings[current].take(&window);
         }
-        for mut recording in recordings {
-            recording.end();
-            let name = recording.name().to_owned();
-            let count = recording.runs.len();
-            let steps = recording.steps.iter().map(|&time| (name.clone(), time));
+        for recording in recordings {
+            let mut its = recording.end();
+            let steps = its.steps.iter().map(|&time| (its.name.clone(), time));
             self.steps.extend(steps);
-            self.recordings
-                .push(((rows.name().to_owned(), name), count));
-            self.overlapping += recording.overlapping;
-            self.backward += recording.backward;
-            self.runs.append(&mut recording.runs);
+            self.overlapping += its.overlapping;
+            self.backward += its.backward;
+            let file = rows.name().to_owned();
+            self.recordings.push(((file, its.name), its.runs.len()));
+            self.runs.append(&mut its.runs);
         }
         Ok(())
     }

@@ -29,9 +29,9 @@
 //!         recording.see(&estimate);
 //!     }
 //! }
-//! recording.end();
+//! let recorded = recording.end();
 //!
-//! let resonance = Resonance::of(&recording.runs).ok_or("no resonator explains the rows")?;
+//! let resonance = Resonance::of(&recorded.runs).ok_or("no resonator explains the rows")?;
 //! let resonator = resonance.found.resonator().ok_or("the splits are not determined")?;
 //! let (decay_rate, std) = resonator.decay;
 //! println!("decay time {} s ± {}", 1.0 / decay_rate, std / (decay_rate * decay_rate));
@@ -49,7 +49,7 @@ mod runs;
 pub mod calibration;
 pub mod resonator;
 
-pub use runs::{BEYOND_NOISE, MIN_ROWS, Recording, Row, Run, Window, turn};
+pub use runs::{BEYOND_NOISE, MIN_ROWS, Recording, Row, Run, Runs, Window, turn};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

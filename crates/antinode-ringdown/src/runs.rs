@@ -12,7 +12,7 @@ pub(crate) mod way;
 use std::borrow::Cow;
 use std::f64::consts::FRAC_PI_2;
 
-pub use recording::Recording;
+pub use recording::{Recording, Runs};
 pub(crate) use row::BOWS;
 pub use row::{Row, Window};
 pub use run::Run;

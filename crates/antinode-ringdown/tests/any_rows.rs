@@ -70,8 +70,7 @@ fn no_rows_make_a_fit_panic() {
                 });
                 let mut recording = Recording::new("a", 0.1, Flags::REACQUIRED);
                 windows.iter().for_each(|window| recording.take(window));
-                recording.end();
-                found(&recording.runs);
+                found(&recording.end().runs);
                 let rows = windows.iter().map(Row::from).collect();
                 let file = String::new();
                 found(&[Run { rows, file }]);

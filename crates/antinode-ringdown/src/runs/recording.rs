@@ -13,11 +13,12 @@ const MIN_WORSE: f64 = 2.0;
 /// Consecutive rows known less well that may be due to a fault, at most.
 const MAX_VAGUE: usize = 20;
 
-/// A recording whose windows are taken one by one, in the order of their times.
-#[derive(Debug)]
-pub struct Recording {
-    name: String,
-    /// The runs that have ended, of [`MIN_ROWS`] rows or more each.
+/// The runs of a recording, and what was left out.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Runs {
+    /// Name of the recording.
+    pub name: String,
+    /// Its runs, of [`MIN_ROWS`] rows or more each.
     pub runs: Vec<Run>,
     /// Times at which runs ended at a step between clean rows, s.
     pub steps: Vec<f64>,
@@ -25,6 +26,13 @@ pub struct Recording {
     pub overlapping: usize,
     /// Clean windows that are not later than the one before.
     pub backward: usize,
+}
+
+/// A recording whose windows are taken one by one, in the order of their times.
+#[derive(Debug)]
+pub struct Recording {
+    /// The runs that have ended.
+    ended: Runs,
     /// Turn of the pattern from row to row, at most, rad.
     max_turn: f64,
     /// Flags of a window that end a run.
@@ -46,11 +54,10 @@ impl Recording {
     /// or missing or steps between clean ones, and at a window with a flag of `breaks`.
     pub fn new(name: &str, max_turn: f64, breaks: Flags) -> Self {
         Self {
-            name: name.to_owned(),
-            runs: Vec::new(),
-            steps: Vec::new(),
-            overlapping: 0,
-            backward: 0,
+            ended: Runs {
+                name: name.to_owned(),
+                ..Runs::default()
+            },
             max_turn,
             breaks,
             run: Run::default(),
@@ -62,7 +69,7 @@ impl Recording {
 
     /// Its name.
     pub fn name(&self) -> &str {
-        &self.name
+        &self.ended.name
     }
 
     /// Takes the next estimate of a stream, or leaves it out if it is flagged.
@@ -77,7 +84,7 @@ impl Recording {
     /// Leaves out a window with these flags; its time, s, and angle, rad, if they are known, may show where the pattern went.
     pub fn leave_out(&mut self, flags: Flags, way: Option<[f64; 2]>) {
         if flags.intersects(self.breaks) {
-            self.end();
+            self.end_run();
         }
         self.between.push(way.filter(|_| flags == Flags::MISFIT));
         if flags == Flags::CIRCULAR {
@@ -93,10 +100,10 @@ impl Recording {
         if let Some(last) = self.run.rows.last() {
             let is_backward = row.time <= last.time;
             if !is_backward && self.run.overlaps(&row) {
-                self.overlapping += 1;
+                self.ended.overlapping += 1;
                 return;
             }
-            self.backward += usize::from(is_backward);
+            self.ended.backward += usize::from(is_backward);
             let is_turned = turn(row.angle - last.angle).abs() > self.max_turn;
             // A report that was lost may have told of a fault.
             if self.between.is_empty() && self.run.misses_rows_before(&row) {
@@ -110,7 +117,7 @@ impl Recording {
                 self.run.rows.truncate(before);
             }
             if is_backward || before.is_some() || is_turned {
-                self.end();
+                self.end_run();
             }
         }
         self.torn = self.torn.filter(|&torn| self.is_vague(torn, &row));
@@ -131,18 +138,26 @@ impl Recording {
         })
     }
 
-    /// Ends the run: keeps it, or its parts between steps, if they are long enough. To be called after the last window.
-    pub fn end(&mut self) {
+    /// The runs of the windows that were taken.
+    pub fn end(mut self) -> Runs {
+        self.end_run();
+        self.ended
+    }
+
+    /// Ends the run: keeps it, or its parts between steps, if they are long enough.
+    fn end_run(&mut self) {
         self.torn = None;
         let rows = std::mem::take(&mut self.run.rows);
         let mut from = 0;
         let steps = steps(&rows, &std::mem::take(&mut self.circles));
-        self.steps.extend(steps.iter().map(|&step| rows[step].time));
+        self.ended
+            .steps
+            .extend(steps.iter().map(|&step| rows[step].time));
         for until in steps.into_iter().chain([rows.len()]) {
             if until - from >= MIN_ROWS {
-                let file = self.name.clone();
+                let file = self.ended.name.clone();
                 let rows = rows[from..until].to_vec();
-                self.runs.push(Run { rows, file });
+                self.ended.runs.push(Run { rows, file });
             }
             // The row at the step may hold some of both.
             from = until + 1;

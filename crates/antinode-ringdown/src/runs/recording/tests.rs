@@ -2,7 +2,7 @@ use super::super::row::BOWS;
 use super::*;
 
 /// The recording of these windows and their flags.
-fn read(windows: impl IntoIterator<Item = (Window, Flags)>, max_turn: f64) -> Recording {
+fn read(windows: impl IntoIterator<Item = (Window, Flags)>, max_turn: f64) -> Runs {
     let mut recording = Recording::new("a", max_turn, Flags::REACQUIRED);
     for (window, flags) in windows {
         if flags.is_empty() {
@@ -11,12 +11,11 @@ fn read(windows: impl IntoIterator<Item = (Window, Flags)>, max_turn: f64) -> Re
             recording.leave_out(flags, Some([window.time, window.angle]));
         }
     }
-    recording.end();
-    recording
+    recording.end()
 }
 
 /// Number of rows of each run.
-fn lengths(recording: &Recording) -> Vec<usize> {
+fn lengths(recording: &Runs) -> Vec<usize> {
     recording.runs.iter().map(|run| run.rows.len()).collect()
 }
 
@@ -50,12 +49,12 @@ fn estimates_are_taken_or_left_out_by_their_flags() {
     };
     let mut recording = Recording::new("a", 0.1, Flags::REACQUIRED);
     (0..40).for_each(|k| recording.see(&estimate(k)));
-    recording.end();
+    let recording = recording.end();
     assert_eq!(lengths(&recording), [19, 19]);
     let [run, _] = &recording.runs[..] else {
         panic!("two runs")
     };
-    assert_eq!((run.file.as_str(), recording.name()), ("a", "a"));
+    assert_eq!((run.file.as_str(), recording.name.as_str()), ("a", "a"));
     assert!((run.turned() - 19.0 * 0.02).abs() < 1e-9 && (run.seconds() - 0.19).abs() < 1e-9);
     assert!(
         run.rows[3]

@@ -63,8 +63,8 @@ pub struct Resonance {
 }
 
 impl Resonance {
-    /// Finds the resonator whose waves come nearest to the rows of these runs, in which the pattern turns by [`MAX_TURN`] or less from row to row.
-    /// Runs of fewer than [`MIN_ROWS`](crate::MIN_ROWS) rows are ignored; `None` without others, and if no resonator explains them.
+    /// Finds the resonator whose waves come nearest to the rows of these runs, in which the pattern turns by [`MAX_TURN`] or less from row
+    /// to row. Runs of fewer than [`MIN_ROWS`](crate::MIN_ROWS) rows are ignored; `None` without others, and if no resonator explains them.
     pub fn of(runs: &[Run]) -> Option<Self> {
         let runs = long_enough(runs);
         if runs.is_empty() {

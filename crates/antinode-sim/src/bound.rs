@@ -92,25 +92,26 @@ fn fisher(wave: &Wave, samples: u32, middle: f64, sample_rate: f64) -> SMatrix<f
         sums += parts * parts.transpose();
         (s, c) = (s * cos_step + c * sin_step, c * cos_step - s * sin_step);
     }
-    let of_c = SMatrix::<f64, 5, 7>::from_columns(&[
-        [c2, 0.0, 0.0, 0.0, 0.0].into(),
-        [0.0, -s2, 0.0, 0.0, 0.0].into(),
-        [-2.0 * a * s2, -2.0 * b * c2, 0.0, 0.0, 0.0].into(),
-        [0.0, 0.0, -b * s2, -a * c2, 0.0].into(),
-        [b * s2, a * c2, 0.0, 0.0, 0.0].into(),
-        [0.0, 0.0, 0.0, 0.0, 1.0].into(),
+    // Along the pattern and across it: that both channels show these turned by two thetas matters to their offsets only.
+    let along = SMatrix::<f64, 5, 7>::from_columns(&[
+        [1.0, 0.0, 0.0, 0.0, 0.0].into(),
         SVector::zeros(),
+        [0.0, -2.0 * b, 0.0, 0.0, 0.0].into(),
+        [0.0, 0.0, 0.0, -a, 0.0].into(),
+        [0.0, a, 0.0, 0.0, 0.0].into(),
+        [0.0, 0.0, 0.0, 0.0, c2].into(),
+        [0.0, 0.0, 0.0, 0.0, s2].into(),
     ]);
-    let of_d = SMatrix::<f64, 5, 7>::from_columns(&[
-        [s2, 0.0, 0.0, 0.0, 0.0].into(),
-        [0.0, c2, 0.0, 0.0, 0.0].into(),
-        [2.0 * a * c2, -2.0 * b * s2, 0.0, 0.0, 0.0].into(),
-        [0.0, 0.0, b * c2, -a * s2, 0.0].into(),
-        [-b * c2, a * s2, 0.0, 0.0, 0.0].into(),
+    let across = SMatrix::<f64, 5, 7>::from_columns(&[
         SVector::zeros(),
-        [0.0, 0.0, 0.0, 0.0, 1.0].into(),
+        [0.0, 1.0, 0.0, 0.0, 0.0].into(),
+        [2.0 * a, 0.0, 0.0, 0.0, 0.0].into(),
+        [0.0, 0.0, b, 0.0, 0.0].into(),
+        [-b, 0.0, 0.0, 0.0, 0.0].into(),
+        [0.0, 0.0, 0.0, 0.0, -s2].into(),
+        [0.0, 0.0, 0.0, 0.0, c2].into(),
     ]);
-    of_c.transpose() * sums * of_c + of_d.transpose() * sums * of_d
+    along.transpose() * sums * along + across.transpose() * sums * across
 }
 
 #[cfg(test)]

@@ -83,8 +83,8 @@ static int tones(const antinode_settings_t *settings, uint32_t period, uint32_t 
     CALL(init)(&gyro, settings);
     for (at = 0; at < PAIRS / 6; at += HALF_BUFFER) {
         for (i = 0; i < HALF_BUFFER; i++) {
-            pushed[i] = (uint16_t)(sine(1000, p) + sine(1000, q));
-            pushed[i] |= (uint32_t)(sine(600, p) + sine(600, q)) << 16;
+            const int32_t x = sine(1000, p) + sine(1000, q);
+            pushed[i] = (uint16_t)x | (uint32_t)(x * 3 / 5) << 16;
             p += (uint32_t)((100ull << 32) / period);
             q += (uint32_t)((100ull << 32) / other);
         }

@@ -119,6 +119,58 @@ mod tests {
     use super::*;
 
     #[test]
+    fn the_fisher_matrix_is_that_of_numerical_derivatives() {
+        // In windows of less than a period, and with much quadrature, every term counts.
+        let wave = Wave {
+            main_amplitude: 1.3,
+            quadrature_amplitude: -0.7,
+            angle: 0.4,
+            phase: 2.1,
+            ..Wave::default()
+        };
+        let (n, middle, rate) = (13, 0.1, 100_000.0);
+        let signals = |[a, b, theta, omega, alpha, c0, d0]: [f64; 7]| {
+            let each = (0..n).flat_map(move |k| {
+                let tau = omega * ((f64::from(k) + 0.5) / f64::from(n) - 0.5) - alpha;
+                let (x, y) = (a * tau.cos(), b * tau.sin());
+                let (s2, c2) = sincos(2.0 * theta);
+                [x * c2 - y * s2 + c0, x * s2 + y * c2 + d0]
+            });
+            each.collect::<Vec<_>>()
+        };
+        let truth = wave.at(middle);
+        let values = [
+            truth.main_amplitude,
+            truth.quadrature_amplitude,
+            truth.angle,
+            TAU * truth.frequency / rate * f64::from(n),
+            truth.phase,
+            0.0,
+            0.0,
+        ];
+        let derivatives: Vec<Vec<f64>> = (0..7)
+            .map(|unknown| {
+                let moved = |by: f64| {
+                    let mut values = values;
+                    values[unknown] += by;
+                    signals(values)
+                };
+                let (before, after) = (moved(-1e-5), moved(1e-5));
+                let pairs = before.iter().zip(after);
+                pairs
+                    .map(|(before, after)| (after - before) / 2e-5)
+                    .collect()
+            })
+            .collect();
+        let expected = SMatrix::<f64, 7, 7>::from_fn(|i, j| {
+            let pairs = derivatives[i].iter().zip(&derivatives[j]);
+            pairs.map(|(one, other)| one * other).sum()
+        });
+        let found = fisher(&wave, n, middle, rate);
+        assert!((found - expected).amax() < 1e-7, "{found} {expected}");
+    }
+
+    #[test]
     fn in_long_windows_the_bound_equals_the_closed_forms() {
         let wave = Wave::default();
         let (n, rate) = (18_755, 100_000.0);

@@ -32,6 +32,7 @@
 //! |---|---|
 //! | [`settings`] | everything that the owner of another gyro may want to change |
 //! | [`sampling`] | the interface between converters and pipeline: a source of simultaneous pairs, and its failures |
+//! | [`sampler`] | such a source of a converter, a DMA's ring and the count of triggers, with its recovery from overruns |
 //! | [`gather`] | the interrupt's half: pairs become blocks |
 //! | [`instrument`] | the main loop's half: blocks become reports; commands are executed |
 //! | [`link`], [`inbox`] | reports out and commands in, without blocking |
@@ -61,6 +62,7 @@ pub mod link;
 #[cfg_attr(not(feature = "methods"), path = "no_methods.rs")]
 pub mod methods;
 pub mod pipeline;
+pub mod sampler;
 pub mod sampling;
 pub mod settings;
 pub mod supervision;

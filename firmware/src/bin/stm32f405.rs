@@ -15,12 +15,13 @@ mod app {
     use firmware::gather::Gatherer;
     use firmware::hardware::dual_adc::DualAdc;
     use firmware::hardware::line::{Line, Transfer};
-    use firmware::hardware::ring::Memory;
-    use firmware::hardware::sampler::Sampler;
+    use firmware::hardware::pair_clock::Tim2;
+    use firmware::hardware::ring::{Memory, Stream};
     use firmware::hardware::watchdog::Watchdog;
     use firmware::hardware::{clock, log, main_loop, reset, supply};
     use firmware::instrument::Instrument;
     use firmware::pipeline::{Places, Queues};
+    use firmware::sampler::Sampler;
     use firmware::sampling::DUAL_ADC_RAILS;
     use firmware::settings::{Arithmetic, HALF, configuration};
     use stm32f4xx_hal::prelude::*;
@@ -29,7 +30,7 @@ mod app {
     struct Shared {
         /// `None` if there is no clock to sample by.
         #[lock_free]
-        source: Option<Sampler<DualAdc>>,
+        source: Option<Sampler<DualAdc, Stream, Tim2>>,
         #[lock_free]
         gatherer: &'static mut Gatherer<'static, Arithmetic>,
         #[lock_free]

@@ -14,13 +14,14 @@ mod app {
     use antinode_telemetry::{Cause, FrontEnd};
     use firmware::gather::Gatherer;
     use firmware::hardware::line::{Line, Transfer};
-    use firmware::hardware::ring::Memory;
-    use firmware::hardware::sampler::Sampler;
+    use firmware::hardware::pair_clock::Tim2;
+    use firmware::hardware::ring::{Memory, Stream};
     use firmware::hardware::spi_adc::SpiAdc;
     use firmware::hardware::watchdog::Watchdog;
     use firmware::hardware::{clock, log, main_loop, reset, supply};
     use firmware::instrument::Instrument;
     use firmware::pipeline::{Places, Queues};
+    use firmware::sampler::Sampler;
     use firmware::sampling::AD7380_RAILS;
     use firmware::settings::{Arithmetic, HALF, configuration};
     use stm32f4xx_hal::gpio::{PinState, Speed};
@@ -35,7 +36,7 @@ mod app {
     #[local]
     struct Local {
         /// `None` if there is no clock to sample by, or no converter.
-        source: Option<Sampler<SpiAdc>>,
+        source: Option<Sampler<SpiAdc, Stream, Tim2>>,
         gatherer: &'static mut Gatherer<'static, Arithmetic>,
         instrument: &'static mut Instrument<'static, Arithmetic>,
         watchdog: Watchdog,

@@ -16,9 +16,9 @@ use stm32f4xx_hal::pac::{ADC_COMMON, ADC1, ADC2, DMA2, RCC, TIM2, TIM3};
 
 use crate::clocks::{APB1_TIMERS, APB2};
 use crate::hardware::clock;
-use crate::hardware::pair_clock::{PairClock, Trigger};
-use crate::hardware::ring::{Memory, Origin, Ring};
-use crate::hardware::sampler::{Converter, Sampler, wait_for};
+use crate::hardware::pair_clock::{Tim2, Trigger};
+use crate::hardware::ring::{Memory, Origin, Stream};
+use crate::sampler::{Converter, Sampler, wait_for};
 use crate::sampling::{DUAL_ADC_RAILS, is_at_rail_12};
 use crate::settings::SAMPLE_RATE;
 
@@ -54,7 +54,7 @@ impl DualAdc {
         (dma, memory): (DMA2, &'static mut Memory),
         _: Pins,
         rcc: &RCC,
-    ) -> Sampler<Self> {
+    ) -> Sampler<Self, Stream, Tim2> {
         // AHB1ENR, APB1ENR, APB2ENR: clocks of the DMA, the timer and the converters.
         rcc.ahb1enr().modify(|_, w| w.dma2en().set_bit());
         rcc.apb1enr().modify(|_, w| w.tim3en().set_bit());
@@ -75,7 +75,7 @@ impl DualAdc {
             adc.timer.arr().write(|w| w.bits(TICKS - 1));
             adc.timer.cr2().write(|w| w.mms().bits(0b010));
         }
-        let clock = PairClock::new(counter, rcc, Trigger::Tim3);
+        let clock = Tim2::new(counter, rcc, Trigger::Tim3);
         // CR1.CEN: the triggers begin.
         adc.timer.cr1().write(|w| w.cen().set_bit());
         let origin = Origin {
@@ -83,7 +83,7 @@ impl DualAdc {
             channel: 0,
             by_halves: false,
         };
-        Sampler::new(adc, Ring::new(dma, memory, origin), clock)
+        Sampler::new(adc, Stream::new(dma, memory, origin), clock)
     }
 
     /// Sets up both converters, which must be in the state after a reset.

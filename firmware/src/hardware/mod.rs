@@ -8,7 +8,6 @@ pub mod main_loop;
 pub mod pair_clock;
 pub mod reset;
 pub mod ring;
-pub mod sampler;
 pub mod spi_adc;
 pub mod supply;
 pub mod watchdog;

@@ -1,8 +1,9 @@
-//! TIM2 counts the sampling timer's triggers, that is the pairs that should have come, even if they were lost.
+//! TIM2 counts the sampling timer's triggers.
 
 use stm32f4xx_hal::pac::{RCC, TIM2};
 
 use crate::hardware::clock;
+use crate::sampler::PairClock;
 
 /// Timer that triggers the sampling, by its number as TIM2's internal trigger input (RM0090, 18.4.3).
 #[derive(Debug, Clone, Copy)]
@@ -14,9 +15,9 @@ pub enum Trigger {
 }
 
 /// Wrapping 32-bit count of triggers.
-pub struct PairClock(TIM2);
+pub struct Tim2(TIM2);
 
-impl PairClock {
+impl Tim2 {
     /// Starts counting.
     #[allow(unsafe_code, reason = "the fields take any bits")]
     pub fn new(timer: TIM2, rcc: &RCC, trigger: Trigger) -> Self {
@@ -31,10 +32,11 @@ impl PairClock {
         timer.cr1().write(|w| w.cen().set_bit());
         Self(timer)
     }
+}
 
-    /// Triggers so far.
+impl PairClock for Tim2 {
     #[inline]
-    pub fn now(&self) -> u32 {
+    fn now(&self) -> u32 {
         self.0.cnt().read().bits()
     }
 }

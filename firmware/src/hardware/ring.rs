@@ -10,21 +10,11 @@ use core::sync::atomic::{Ordering, fence};
 use antinode::Packed;
 use stm32f4xx_hal::pac::DMA2;
 
+use crate::sampler::{Done, Ring};
 use crate::settings::HALF;
 
 /// The ring's memory: two halves.
 pub type Memory = [[Packed; HALF]; 2];
-
-/// Events of the stream since the last call.
-#[derive(Debug, Clone, Copy)]
-pub struct Done {
-    /// The first half is full.
-    pub first: bool,
-    /// The second half is full.
-    pub second: bool,
-    /// The transfer failed.
-    pub error: bool,
-}
 
 /// Source of the words.
 #[derive(Debug, Clone, Copy)]
@@ -38,16 +28,16 @@ pub struct Origin {
 }
 
 /// The ring and its stream.
-pub struct Ring {
+pub struct Stream {
     dma: DMA2,
     memory: *mut Memory,
     origin: Origin,
 }
 
 // SAFETY: the ring owns the memory for ever.
-unsafe impl Send for Ring {}
+unsafe impl Send for Stream {}
 
-impl Ring {
+impl Stream {
     /// A stopped ring. DMA2's clock must be enabled.
     pub fn new(dma: DMA2, memory: &'static mut Memory, origin: Origin) -> Self {
         Self {
@@ -56,17 +46,18 @@ impl Ring {
             origin,
         }
     }
+}
 
+impl Ring for Stream {
     /// Stops the stream; its source may be switched off only after that (RM0090, 10.3.17).
-    pub fn stop(&mut self) {
+    fn stop(&mut self) {
         let stream = self.dma.st(0);
         // CR.EN: off; it reads as on until the current transfer has ended, within some bus cycles.
         stream.cr().modify(|_, w| w.en().clear_bit());
         let _ = (0..1000).any(|_| stream.cr().read().en().bit_is_clear());
     }
 
-    /// Starts the stopped stream at the ring's first word.
-    pub fn start(&mut self) {
+    fn start(&mut self) {
         let stream = self.dma.st(0);
         // The stream cannot be enabled while flags are set.
         self.done();
@@ -102,7 +93,7 @@ impl Ring {
     }
 
     /// Pairs still to come in this round, by NDTR, with one of which only the first word has come.
-    pub fn left(&self) -> u32 {
+    fn left(&self) -> u32 {
         let transfers = self.dma.st(0).ndtr().read().bits();
         if self.origin.by_halves {
             transfers.div_ceil(2)
@@ -112,7 +103,7 @@ impl Ring {
     }
 
     /// Reads and clears the events of the stream: LISR, LIFCR.
-    pub fn done(&self) -> Done {
+    fn done(&self) -> Done {
         let status = self.dma.lisr().read();
         let done = Done {
             first: status.htif0().bit_is_set(),
@@ -130,8 +121,7 @@ impl Ring {
         done
     }
 
-    /// One of the halves. The DMA meanwhile writes to the other one; the caller checks afterwards that it did not reach this one.
-    pub fn half(&self, second: bool) -> &[Packed] {
+    fn half(&self, second: bool) -> &[Packed] {
         // Reads the words only after the DMA's flag.
         fence(Ordering::Acquire);
         // SAFETY: the half lies within the memory, and only the DMA writes, to the other half. If it comes round too early, the words

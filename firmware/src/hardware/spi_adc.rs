@@ -26,9 +26,9 @@ use stm32f4xx_hal::pac::{DMA2, RCC, SPI1, SYSCFG, TIM1, TIM2};
 
 use crate::clocks::{APB2, APB2_TIMERS, CORE};
 use crate::hardware::clock;
-use crate::hardware::pair_clock::{PairClock, Trigger};
-use crate::hardware::ring::{Memory, Origin, Ring};
-use crate::hardware::sampler::{Converter, Sampler, wait_for};
+use crate::hardware::pair_clock::{Tim2, Trigger};
+use crate::hardware::ring::{Memory, Origin, Stream};
+use crate::sampler::{Converter, Sampler, wait_for};
 use crate::sampling::{AD7380_RAILS, is_at_rail_16};
 use crate::settings::SAMPLE_RATE;
 
@@ -71,7 +71,7 @@ impl SpiAdc {
         _: Pins,
         mut cs: PA8<Output>,
         (rcc, system): (&RCC, &SYSCFG),
-    ) -> Result<Sampler<Self>, ad7380::Error<ErrorKind>> {
+    ) -> Result<Sampler<Self, Stream, Tim2>, ad7380::Error<ErrorKind>> {
         // AHB1ENR, APB2ENR: clocks of the DMA, SPI, timer and SYSCFG.
         rcc.ahb1enr().modify(|_, w| w.dma2en().set_bit());
         rcc.apb2enr()
@@ -97,7 +97,7 @@ impl SpiAdc {
         let adc = Self { spi, timer };
         adc.configure(&dma);
         let _: PA8<Alternate<1>> = cs.into_alternate();
-        let clock = PairClock::new(counter, rcc, Trigger::Tim1);
+        let clock = Tim2::new(counter, rcc, Trigger::Tim1);
         // CR1.CEN: the frames begin.
         adc.timer.cr1().write(|w| w.cen().set_bit());
         let origin = Origin {
@@ -105,7 +105,7 @@ impl SpiAdc {
             channel: 3,
             by_halves: true,
         };
-        Ok(Sampler::new(adc, Ring::new(dma, memory, origin), clock))
+        Ok(Sampler::new(adc, Stream::new(dma, memory, origin), clock))
     }
 
     fn configure(&self, dma: &DMA2) {

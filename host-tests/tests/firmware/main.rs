@@ -18,6 +18,7 @@ mod recovery;
 mod registers;
 mod run;
 mod same;
+mod sampler;
 mod stack;
 mod steered;
 mod told;

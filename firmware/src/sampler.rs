@@ -1,12 +1,10 @@
-//! A source of pairs: a converter that a timer triggers and the DMA reads.
+//! A source of pairs: a converter that a timer triggers, the ring that the DMA fills, and the count of triggers, of whichever chip.
 
 use core::sync::atomic::{Ordering, compiler_fence};
 
 use antinode::Packed;
 use antinode_telemetry::Cause;
 
-use crate::hardware::pair_clock::PairClock;
-use crate::hardware::ring::Ring;
 use crate::sampling::{Lapse, Ready, Source, beyond, both, has_slipped};
 use crate::settings::HALF;
 
@@ -32,6 +30,41 @@ pub trait Converter {
     fn is_at_rail(pair: Packed) -> bool;
 }
 
+/// Events of the ring since they were last read.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Done {
+    /// The first half is full.
+    pub first: bool,
+    /// The second half is full.
+    pub second: bool,
+    /// The transfer failed.
+    pub error: bool,
+}
+
+/// Two halves of [`HALF`] pairs each, which the DMA fills in turn, with an interrupt at the end of each.
+pub trait Ring {
+    /// Stops the DMA.
+    fn stop(&mut self);
+
+    /// Starts the stopped DMA at the first half, without events.
+    fn start(&mut self);
+
+    /// Reads and clears the events.
+    fn done(&self) -> Done;
+
+    /// Pairs still to come in this round: 2·[`HALF`] at its beginning, and, if the DMA reloads its count later, 0 at its end.
+    fn left(&self) -> u32;
+
+    /// One of the halves. The DMA meanwhile writes to the other one; if it comes round too early, the words are valid but new.
+    fn half(&self, second: bool) -> &[Packed];
+}
+
+/// The count of triggers, that is of the pairs that should have come, even if they were lost.
+pub trait PairClock {
+    /// Triggers so far, wrapping.
+    fn now(&self) -> u32;
+}
+
 /// Waits until `count`, of a timer with a period of `ticks`, is within `quiet`. The wait is limited to a few periods, as a dead timer must
 /// not hang the interrupt.
 pub fn wait_for(quiet: [u32; 2], ticks: u32, count: impl Fn() -> u32) {
@@ -39,19 +72,19 @@ pub fn wait_for(quiet: [u32; 2], ticks: u32, count: impl Fn() -> u32) {
 }
 
 /// A source of pairs: a converter, the ring that it fills, and the count of its triggers.
-pub struct Sampler<C: Converter> {
+pub struct Sampler<C, R, T> {
     converter: C,
-    ring: Ring,
-    clock: PairClock,
+    ring: R,
+    clock: T,
     /// Count of triggers at the end of the pairs handed out.
     taken: u32,
     /// True if the second half was handed out last.
     second: bool,
 }
 
-impl<C: Converter> Sampler<C> {
+impl<C: Converter, R: Ring, T: PairClock> Sampler<C, R, T> {
     /// Starts sampling.
-    pub fn new(mut converter: C, mut ring: Ring, clock: PairClock) -> Self {
+    pub fn new(mut converter: C, mut ring: R, clock: T) -> Self {
         const { C::RATE };
         ring.start();
         converter.arm();
@@ -80,7 +113,7 @@ impl<C: Converter> Sampler<C> {
     }
 }
 
-impl<C: Converter> Source for Sampler<C> {
+impl<C: Converter, R: Ring, T: PairClock> Source for Sampler<C, R, T> {
     type Pair = Packed;
 
     #[inline]
@@ -92,10 +125,11 @@ impl<C: Converter> Source for Sampler<C> {
         if self.converter.has_overrun() {
             return Ready::Lapse(self.restart(Cause::Overrun));
         }
-        // The halves must alternate: neither twice, nor both at once.
         match (done.first, done.second) {
             (false, false) => Ready::Nothing,
-            (first, second) if first != second && second != self.second => {
+            // The DMA is about to write to the one that was full first.
+            (true, true) => Ready::Lapse(self.restart(Cause::Overrun)),
+            (_, second) => {
                 let taken = self.taken.wrapping_add(HALF as u32);
                 if self.has_slipped(taken, second) {
                     return Ready::Lapse(self.restart(Cause::Overrun));
@@ -103,7 +137,6 @@ impl<C: Converter> Source for Sampler<C> {
                 (self.second, self.taken) = (second, taken);
                 Ready::Pairs
             }
-            _ => Ready::Lapse(self.restart(Cause::Overrun)),
         }
     }
 

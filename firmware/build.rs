@@ -1,5 +1,6 @@
 //! Hands the linker the memory map at the top of the project.
 
+use std::ffi::OsStr;
 use std::path::PathBuf;
 use std::{env, fs};
 
@@ -22,8 +23,13 @@ fn main() {
         println!("cargo:rustc-link-arg-{kind}=-Tlink.x");
         println!("cargo:rustc-link-arg-{kind}=--nmagic");
     }
-    // The benches log nothing.
-    for image in ["replay", "stm32f405", "stm32f405_ad7380"] {
-        println!("cargo:rustc-link-arg-bin={image}=-Tdefmt.x");
+    // All others log nothing.
+    println!("cargo:rerun-if-changed=src/bin");
+    for image in fs::read_dir("src/bin").expect("there are images") {
+        let image = image.expect("the folder can be read").path();
+        let name = image.file_stem().and_then(OsStr::to_str).expect("a name");
+        if name == "replay" || name.starts_with("stm32") {
+            println!("cargo:rustc-link-arg-bin={name}=-Tdefmt.x");
+        }
     }
 }

@@ -16,7 +16,7 @@ use crate::gather::{Item, Request};
 use crate::link::Link;
 use crate::methods::{AVAILABLE, History, Tuning};
 use crate::sampling::Lapse;
-use crate::settings::{COUNTERS_MS, OUTBOX, QUEUE, RESTART_MS, RING, SOONEST_MS};
+use crate::settings::{COUNTERS_MS, OUTBOX, QUEUE, RESTART_MS, RING, SOONEST_MS, VERSION};
 use crate::supervision::Liveness;
 
 /// Event for the log.
@@ -224,7 +224,7 @@ impl<'q, S: Sample> Instrument<'q, S> {
     }
 
     fn hello(&mut self) {
-        let hello = Hello::new(env!("CARGO_PKG_VERSION"), self.configuration);
+        let hello = Hello::new(VERSION, self.configuration);
         self.link.send(&Report::Hello(hello));
     }
 

@@ -55,6 +55,8 @@ pub const BAUD: u32 = 921_600;
 pub const CRYSTAL_MHZ: u32 = 8;
 /// True if an oscillator of `CRYSTAL_MHZ` drives PH0, rather than a crystal between PH0 and PH1.
 pub const OSCILLATOR: bool = false;
+/// The firmware's version, as `antinode monitor` shows it.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// Time without a pair after which sampling is restarted, ms: longer than two halves of the ring take.
 pub const STALL_MS: u32 = 20;
 /// Time without a live pipeline after which the watchdog resets the chip, ms.
@@ -116,10 +118,6 @@ const _: () = {
 
 // Sizes and times that depend on each other.
 const _: () = {
-    assert!(
-        SAMPLE_RATE >= 1300 && SAMPLE_RATE <= 168_000,
-        "SAMPLE_RATE must be 1300 to 168_000"
-    );
     assert!(
         HALF >= 16 && HALF <= 16_000,
         "HALF must be 16 to 16_000: the DMA counts four half-words a pair in 16 bits"

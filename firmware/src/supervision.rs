@@ -44,35 +44,41 @@ impl Liveness {
     }
 }
 
-// Flags of RCC_CSR for the cause of a reset, reference manual RM0090, 7.3.21.
-const LPWRRSTF: u32 = 1 << 31;
-const WWDGRSTF: u32 = 1 << 30;
-const IWDGRSTF: u32 = 1 << 29;
-const SFTRSTF: u32 = 1 << 28;
-const PORRSTF: u32 = 1 << 27;
-const PINRSTF: u32 = 1 << 26;
-const BORRSTF: u32 = 1 << 25;
+/// What the chip itself tells of its reset.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct ResetFlags {
+    /// Power came on.
+    pub power_on: bool,
+    /// Either watchdog.
+    pub watchdog: bool,
+    /// The supply fell below the chip's brown-out level.
+    pub brown_out: bool,
+    /// The core's own request, by software or a debug probe.
+    pub software: bool,
+    /// Illegal use of a low-power mode.
+    pub low_power: bool,
+    /// The reset pin, which every other reset may pull too.
+    pub pin: bool,
+}
 
-/// Cause of the chip's reset, by RCC_CSR and the note that the firmware itself may have left before it.
+/// Cause of the chip's reset, by its flags and the note that the firmware itself may have left before it.
 ///
-/// Power-on also sets BORRSTF, and every reset sets PINRSTF, so that the more specific flags are checked first. By default the brown-out
-/// reset is off, and every loss of power sets PORRSTF. BORRSTF comes alone if a level is set in the option bytes, see
-/// `firmware/docs/wiring.md`; where the supply falls less, the firmware leaves a note of it.
-pub const fn cause(csr: u32, noted: Option<Cause>) -> Cause {
+/// Power-on may also raise the brown-out flag, and every reset that of the pin, so that the more specific flags are checked first.
+pub const fn cause(flags: ResetFlags, noted: Option<Cause>) -> Cause {
     // Memory does not survive a loss of power: a note would be there by chance.
-    if csr & PORRSTF != 0 {
+    if flags.power_on {
         return Cause::PowerOn;
     }
-    if csr & (IWDGRSTF | WWDGRSTF) != 0 {
+    if flags.watchdog {
         return Cause::Watchdog;
     }
     match noted {
         Some(cause) => cause,
-        None if csr & BORRSTF != 0 => Cause::BrownOut,
+        None if flags.brown_out => Cause::BrownOut,
         // The firmware leaves a note when it resets itself: without one it was a debug probe.
-        None if csr & SFTRSTF != 0 => Cause::Software,
-        None if csr & LPWRRSTF != 0 => Cause::Unknown,
-        None if csr & PINRSTF != 0 => Cause::ResetPin,
+        None if flags.software => Cause::Software,
+        None if flags.low_power => Cause::Unknown,
+        None if flags.pin => Cause::ResetPin,
         None => Cause::Unknown,
     }
 }
@@ -121,21 +127,40 @@ mod tests {
 
     #[test]
     fn causes_of_resets_follow_from_flags_and_notes() {
-        assert_eq!(
-            cause(PORRSTF | BORRSTF | PINRSTF, Some(Cause::Panic)),
-            Cause::PowerOn
-        );
-        assert_eq!(cause(IWDGRSTF | PINRSTF, None), Cause::Watchdog);
-        assert_eq!(cause(SFTRSTF | PINRSTF, Some(Cause::Panic)), Cause::Panic);
+        // Every reset pulls the pin.
+        let pin = ResetFlags {
+            pin: true,
+            ..ResetFlags::default()
+        };
+        let (power_on, brown_out) = (true, true);
+        let dead = ResetFlags {
+            power_on,
+            brown_out,
+            ..pin
+        };
+        assert_eq!(cause(dead, Some(Cause::Panic)), Cause::PowerOn);
+        let watchdog = ResetFlags {
+            watchdog: true,
+            ..pin
+        };
+        assert_eq!(cause(watchdog, None), Cause::Watchdog);
+        let software = ResetFlags {
+            software: true,
+            ..pin
+        };
+        assert_eq!(cause(software, Some(Cause::Panic)), Cause::Panic);
         // By a debug probe, as after flashing.
-        assert_eq!(cause(SFTRSTF | PINRSTF, None), Cause::Software);
-        assert_eq!(cause(LPWRRSTF | PINRSTF, None), Cause::Unknown);
-        assert_eq!(cause(BORRSTF | PINRSTF, None), Cause::BrownOut);
-        assert_eq!(cause(PINRSTF, None), Cause::ResetPin);
-        assert_eq!(
-            cause(SFTRSTF | PINRSTF, Some(Cause::BrownOut)),
-            Cause::BrownOut
-        );
+        assert_eq!(cause(software, None), Cause::Software);
+        let low_power = ResetFlags {
+            low_power: true,
+            ..pin
+        };
+        assert_eq!(cause(low_power, None), Cause::Unknown);
+        let dipped = ResetFlags { brown_out, ..pin };
+        assert_eq!(cause(dipped, None), Cause::BrownOut);
+        assert_eq!(cause(pin, None), Cause::ResetPin);
+        assert_eq!(cause(pin, Some(Cause::BrownOut)), Cause::BrownOut);
+        assert_eq!(cause(ResetFlags::default(), None), Cause::Unknown);
         for noted in [
             Cause::Command,
             Cause::Panic,

@@ -70,9 +70,9 @@ impl Hello {
 pub enum State {
     /// The device has started; the cause is that of its reset.
     Started(Cause),
-    /// The device searches for a wave.
+    /// The device searches for a wave: sent after the start, and when the tracker wants a new search while the last state was `Tracking`.
     Searching,
-    /// The device tracks a wave.
+    /// The device tracks a wave: sent with the first estimate after any other state.
     Tracking,
     /// Sampling was restarted; the time of estimates includes the pairs lost, which [`Counters`] count.
     SamplingRestarted(Cause),

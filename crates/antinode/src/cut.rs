@@ -18,6 +18,9 @@ const MIN_PAIRS: u16 = 6;
 /// Error of a window's length, as a share of it, beyond which other block lengths are tried.
 const MAX_LENGTH_ERROR: f32 = 0.05;
 
+/// Error of a block's length, as a share of it, for which a search is worth its gap: more of a wave's harmonics is then in its sums.
+const MAX_MISMATCH: f32 = 1.0 / 32.0;
+
 /// The settings that determine the blocks.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Cut {
@@ -35,14 +38,12 @@ impl Cut {
     /// that, so that windows move in finer steps. At most `max_length`.
     pub(crate) fn length(self, period: f32, max_length: u16) -> u16 {
         let window = period * f32::from(self.periods);
-        let longest = lesser(MAX_BLOCK_PERIODS * period, window / MIN_BLOCKS);
-        let length = if self.has_hop {
-            rounded(0.5 * longest)
-        } else if longest < 16.0 {
-            rounded(longest)
+        let ideal = self.ideal(period);
+        let length = if self.has_hop || ideal < 16.0 {
+            rounded(ideal)
         } else {
             // Even, as samples are summed in twos.
-            2 * rounded(0.5 * lesser(longest, MAX_BLOCK_PAIRS))
+            2 * rounded(0.5 * lesser(ideal, MAX_BLOCK_PAIRS))
         };
         let least = if self.own_offsets && self.periods >= self.min_hum_periods() {
             (MIN_HUM_PERIODS * period) as u16 + 1
@@ -50,6 +51,22 @@ impl Cut {
             1
         };
         self.fitting(window, length, least).min(max_length)
+    }
+
+    /// The length of a block if samples could be split.
+    fn ideal(self, period: f32) -> f32 {
+        let window = period * f32::from(self.periods);
+        let longest = lesser(MAX_BLOCK_PERIODS * period, window / MIN_BLOCKS);
+        if self.has_hop { 0.5 * longest } else { longest }
+    }
+
+    /// True if blocks of `layout` are off the length that they would have if the period were `period` by [`MAX_MISMATCH`] more than need be.
+    pub(crate) fn mismatches(self, layout: Layout, period: f32) -> bool {
+        let ideal = self.ideal(period);
+        let off = |length: u16| (f32::from(length) - ideal).abs();
+        let gain = off(layout.length) - off(self.length(period, u16::MAX));
+        // If a front has no room for longer ones, there is nothing to gain.
+        gain > MAX_MISMATCH * ideal && layout.length == self.length(layout.step.period(), u16::MAX)
     }
 
     /// Fewest periods of a window whose blocks have a period each, or up to a tenth less if that is no whole number of samples, as hum needs.

@@ -35,9 +35,10 @@ impl Flags {
     /// After a new search a dead pick-off looks like a pattern on the other's axis, and is not flagged.
     pub const DEAD_CHANNEL: Self = Self(1 << 6);
     /// First window after a lost wave was searched for, or after a gap, misfits or circular windows in which the pattern may have turned by
-    /// a quarter turn more or less: the angle is known modulo π/2 only. Also the first window after a change of calibration or settings,
-    /// unless it is the first of all, or the change was by `configure`, which begins at the start angle. The flag stands up to and in the
-    /// first window without a misfit, whose angle later windows continue.
+    /// a quarter turn more or less: the angle is known modulo π/2 only. Also the first window after a second search, because a disturbed
+    /// start had misled the first, and after a change of calibration or settings, unless it is the first of all, or the change was by
+    /// `configure`, which begins at the start angle. The flag stands up to and in the first window without a misfit, whose angle later
+    /// windows continue.
     pub const REACQUIRED: Self = Self(1 << 7);
     /// A sample is NaN or infinite, or so large that its square is infinite.
     pub const NOT_FINITE: Self = Self(1 << 8);

@@ -10,7 +10,7 @@ use cortex_m::peripheral::SCB;
 use cortex_m_rt::ExceptionFrame;
 use stm32f4xx_hal::pac::RCC;
 
-use crate::supervision::{cause, number, numbered};
+use crate::supervision::{ResetFlags, cause, number, numbered};
 
 /// Distinguishes a note that was written from random memory after power-on.
 const MARK: u32 = 0x616e_7469;
@@ -64,12 +64,22 @@ pub fn started(rcc: &RCC) -> Note {
     } else {
         None
     };
-    let csr = rcc.csr().read().bits();
+    // CSR, RM0090, 7.3.21. By default the brown-out reset is off, and every loss of power sets PORRSTF. BORRSTF comes alone if a level is
+    // set in the option bytes, see `firmware/docs/wiring.md`; where the supply falls less, the firmware leaves a note of it.
+    let csr = rcc.csr().read();
+    let flags = ResetFlags {
+        power_on: csr.porrstf().bit_is_set(),
+        watchdog: csr.wdgrstf().bit_is_set() || csr.wwdgrstf().bit_is_set(),
+        brown_out: csr.borrstf().bit_is_set(),
+        software: csr.sftrstf().bit_is_set(),
+        low_power: csr.lpwrrstf().bit_is_set(),
+        pin: csr.padrstf().bit_is_set(),
+    };
     // RMVF: flags accumulate over resets until they are removed.
     rcc.csr().modify(|_, w| w.rmvf().set_bit());
     let known = |word| if noted.is_some() { word } else { 0 };
     Note {
-        cause: cause(csr, noted),
+        cause: cause(flags, noted),
         place: known(place),
         caller: known(caller),
         status: known(status),

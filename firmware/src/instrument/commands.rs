@@ -53,6 +53,7 @@ impl<S: Sample> Instrument<'_, S> {
         let configuration = self.configuration.after(command, RING)?;
         Front::<S, LONGEST_PERIOD>::check(&configuration.settings)?;
         if changes_blocks {
+            // Sent first, as there may be no room: the interrupt's blocks keep the old number until `poll` stores the new one.
             self.ask(Request::Configure(configuration.settings))?;
             // Discards the blocks that wait: they were gathered with the old settings.
             self.tracker.search();

@@ -28,6 +28,7 @@ mod limiters;
 mod limits;
 mod methods;
 mod methods_shared;
+mod misled;
 mod oracle;
 mod parts;
 mod recovery;

@@ -118,7 +118,9 @@ impl<const BLOCKS: usize> Tracker<BLOCKS> {
     /// Number of the search whose blocks it takes, for [`Front::search_if_wanted`](crate::Front::search_if_wanted): 0 at first. It counts
     /// up, and wraps, when a new period must be searched for: when the first window showed no wave, or two in a row were
     /// [`LOST`](crate::Flags::LOST) or did not settle, or eight in a row held little of the wave compared with all else, or had samples in
-    /// every block that lie beyond the wave by more than its amplitude. Overlapping windows count by the blocks they move on.
+    /// every block that lie beyond the wave by more than its amplitude. Overlapping windows count by the blocks they move on. It also counts
+    /// up once if the first clean window shows that the blocks are some per cent too short or too long for the wave, because what came
+    /// before it had misled the search: more of its harmonics would leak into every window.
     ///
     /// Hand it on after every block, as a first window without a wave gives no estimate, and also after [`configure`](Self::configure) and
     /// [`search`](Self::search).

@@ -50,6 +50,8 @@ pub(super) struct Tracking {
     pub(super) broken: bool,
     /// True if the last window showed a wave.
     pub(super) found: bool,
+    /// True once the first clean window after a search has been compared with its blocks.
+    pub(super) is_compared: bool,
 }
 
 impl Tracking {
@@ -74,6 +76,7 @@ impl Tracking {
             failures: Failures::NONE,
             broken: false,
             found: false,
+            is_compared: false,
         }
     }
 
@@ -91,6 +94,7 @@ impl Tracking {
     /// Drops the wave and the blocks gathered, and wants a new search.
     pub(super) fn search(&mut self) {
         self.forget();
+        self.is_compared = false;
         self.wanted = self.wanted.wrapping_add(1);
     }
 
@@ -148,7 +152,25 @@ impl Tracking {
             .advance(seen, self.settings.hop.unwrap_or(self.count));
         if self.failures.are_enough(self.count) {
             self.search();
+        } else if !self.is_compared {
+            self.compare();
         }
+    }
+
+    /// Wants a search anew, though not another one after that, if the last was misled by what came before the wave: if the blocks are too
+    /// short or too long for the period found by the first clean window.
+    #[cold]
+    #[inline(never)]
+    fn compare(&mut self) {
+        let (Some(model), Some(wave)) = (&self.model, &self.before) else {
+            return;
+        };
+        let is_misled = self.settings.frequency.is_none()
+            && (self.settings.cut()).mismatches(model.layout, wave.carrier.period());
+        if is_misled {
+            self.search();
+        }
+        self.is_compared = true;
     }
 
     /// Takes a block; true if it completes a window.

@@ -1,0 +1,85 @@
+//! A search misled by what came before the wave: its blocks are too short or too long, until the wave itself shows its period.
+
+use antinode::{Estimate, Flags, Front, Identifier, Settings, Tracker};
+use antinode_sim::{Flaws, Gyro, Wave};
+use host_tests::random::Random;
+use host_tests::{RATE, identify_changed, windows};
+
+/// A wave of `period` samples.
+fn wave_of(period: f64) -> Wave {
+    Wave {
+        frequency: RATE / period,
+        angle: 0.3,
+        ..Wave::default()
+    }
+}
+
+#[test]
+fn blocks_match_the_period_in_spite_of_a_disturbed_start() {
+    let (period, noise) = (50.0, Flaws::white(1e-3));
+    let mut misled = 0;
+    for seed in 0..100 {
+        let mut random = Random::new(seed);
+        let mut draw = || 3.0 * f64::from(random.draw());
+        let disturbed: Vec<[f64; 2]> = (0..5 * (1 + seed % 8)).map(|_| [draw(), draw()]).collect();
+        let found = identify_changed(
+            wave_of(period),
+            &noise,
+            windows(10),
+            5_000,
+            seed.into(),
+            |k, pair| disturbed.get(k).copied().unwrap_or(pair),
+        );
+        let is_off = |e: &&Estimate| e.samples.abs_diff(500) > 10;
+        let off = found.iter().take_while(is_off).count();
+        misled += off;
+        // One window shows it, and the next one is flagged as all are after a search.
+        assert!(
+            off <= 1 && !found[off..].iter().any(|e| is_off(&e)),
+            "seed {seed}"
+        );
+        for (i, estimate) in found.iter().enumerate() {
+            let is_anew = off > 0 && i == off;
+            let flags = if is_anew {
+                Flags::REACQUIRED
+            } else {
+                Flags::empty()
+            };
+            assert_eq!(estimate.flags, flags, "seed {seed}");
+        }
+    }
+    assert!(misled >= 10, "{misled}");
+}
+
+#[test]
+fn blocks_that_never_match_are_searched_for_once() {
+    let gyro = Gyro::new(wave_of(50.0), Flaws::white(1e-3), RATE, 1).unwrap();
+    // A front that is told a period of 52 samples begins so again and again.
+    let told = Settings {
+        frequency: Some((RATE / 52.0) as f32),
+        ..windows(10)
+    };
+    let mut front = Front::<f32, 200>::new(told).unwrap();
+    let mut tracker = Tracker::<16>::new(windows(10)).unwrap();
+    let (mut windows, mut searches) = (0, 0);
+    for pair in gyro.take(20_000) {
+        searches += u32::from(front.search_if_wanted(tracker.wanted_search()));
+        if let Some(block) = front.push(pair.map(|x| x as f32)) {
+            windows += u32::from(tracker.push(block).is_some());
+        }
+    }
+    assert_eq!(searches, 1);
+    assert!(windows > 35, "{windows}");
+}
+
+#[test]
+fn blocks_as_long_as_a_front_has_room_for_are_not_searched_for_anew() {
+    let gyro = Gyro::new(wave_of(38.0), Flaws::white(0.05), RATE, 1).unwrap();
+    let mut core = Identifier::<f32, 40, 32>::new(windows(10)).unwrap();
+    let found: Vec<_> = gyro
+        .take(20_000)
+        .filter_map(|pair| core.push(pair.map(|x| x as f32)))
+        .collect();
+    assert!(found.len() > 45, "{}", found.len());
+    assert!(found.iter().all(|e| e.flags.is_empty()));
+}

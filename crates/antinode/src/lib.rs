@@ -116,10 +116,10 @@
 //! period it takes 2.5 times as many, and up to 15 and 50 times in these cases. [`Front::extend`] takes 0.4 KB of
 //! stack. The repository's `firmware` is a whole program, with RTIC.
 //!
-//! Without a floating-point unit the search and the solution are many times dearer. On a Cortex-M0, in `i16`, a pair takes 3000 to 3900 instructions
-//! of the search in noise, and 230 once the period is known; a window of 10 periods takes 310 000. At 100 kS/s an RP2040 then needs a known
-//! [frequency](Settings::frequency), and a [hop](Settings::hop) of 200 blocks or more, which leaves out most of the windows. The C library's
-//! README lists the costs of the search for all cores.
+//! Without a floating-point unit the search and the solution are many times dearer. On a Cortex-M0, in `i16`, a pair takes 3000 to 3900
+//! instructions of the search in noise, and 230 once the period is known; a window of 10 periods takes 310 000. At 100 kS/s an RP2040 then
+//! needs a known [frequency](Settings::frequency), and a [hop](Settings::hop) of 200 blocks or more, which leaves out most of the windows. The
+//! C library's README lists the costs of the search for all cores.
 //!
 //! [`Front::UNSET`], [`Tracker::UNSET`] and [`Identifier::UNSET`] are all zeros: statics initialised with them, for example in a
 //! `ConstStaticCell` of the crate `static_cell`, take neither flash nor stack; call `configure` before use. The result of
@@ -130,9 +130,9 @@
 //! the same: the message of a [`SettingsError`] has numbers, and what prints them takes 30 KB of flash.
 //!
 //! `opt-level = 2` is as fast as 3 and smaller; if flash is short, `"z"` for the package `antinode` alone, in the profile of the program, takes
-//! a seventh off an image for a Cortex-M0, and leaves the front, which is compiled in your crate, 15 % slower. On a Cortex-M4 give rustc `-Ctarget-cpu=cortex-m4`: without it rustc mistakes three-cycle
-//! multiply-accumulates for single-cycle ones. With it the core is 2 KB larger. Cargo does not take such flags from a dependency: they
-//! belong in your own `.cargo/config.toml`.
+//! a seventh off an image for a Cortex-M0, and leaves the front, which is compiled in your crate, 15 % slower. On a Cortex-M4 give rustc
+//! `-Ctarget-cpu=cortex-m4`: without it rustc mistakes three-cycle multiply-accumulates for single-cycle ones. With it the core is 2 KB larger.
+//! Cargo does not take such flags from a dependency: they belong in your own `.cargo/config.toml`.
 //!
 //! # Features
 //!

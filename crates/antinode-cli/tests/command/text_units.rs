@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::common::{Row, WAVE, done, rows, run, text};
+use crate::common::{Row, WAVE, done, no_rows, printed, rows, rows_of, run, same_later, text};
 
 /// A recording under a header, with its times and signals multiplied by these.
 fn scaled(header: &str, time: f64, scales: [f64; 2]) -> String {
@@ -148,6 +148,39 @@ fn an_unknown_unit_beside_a_known_one_is_warned_of() {
     let run = done(here, "identify a.csv");
     let told = "warning: a.csv: S_C is in V and S_D in MV: one of these units is not known, and both signals are read without conversion";
     assert!(run.err.starts_with(told), "{}", run.err);
+}
+
+#[test]
+fn units_of_settings_count_though_that_of_another_column_is_unknown() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let expected = rows_of(here, &text(&WAVE.codes(5000)), "");
+    let three = |units: &str| {
+        let above = format!(
+            "LabVIEW Measurement\t\nSeparator\tTab\n\nY_Unit_Label\t{units}\nX_Value\tc\tforce\td\n"
+        );
+        printed(&above, &WAVE.codes(5000), |k, [c, d]| {
+            format!("{:.5}\t{c}\t0.3\t{}", k as f64 * 1e-5, 1e3 * d)
+        })
+    };
+    fs::write(here.join("a.lvm"), three("V\tPounds\tmV")).unwrap();
+    let found = done(here, "identify a.lvm --columns 1,2,4 --output csv");
+    let told = "warning: a.lvm: S_C is in V and S_D in mV: both are converted to V\n";
+    assert_eq!(found.err, told);
+    for (found, expected) in Row::all(&found.out).iter().zip(&expected) {
+        let apart = found.number("angle_rad") - expected.number("angle_rad");
+        assert!(apart.abs() < 1e-5, "{apart}");
+    }
+    let run = run(here, "identify a.lvm --columns 1,2,3");
+    let told = "warning: a.lvm: S_C is in V and S_D in Pounds: one of these units is not known";
+    assert!(run.err.starts_with(told), "{}", run.err);
+    let refused = "input:4: S_C is in Volts and S_D in g, which have no common unit";
+    let other = three("Volts\tPounds\tg");
+    no_rows(here, "- --columns 1,2,4", other.into(), &[refused]);
+    // The label of the line is no unit.
+    let above = "Model,X\nVertical Units,V\nc,d\n";
+    let two = printed(above, &WAVE.codes(5000), |_, [c, d]| format!("{c},{d}"));
+    same_later(&rows_of(here, &two, "--rate 1e5"), &expected, 0.0);
 }
 
 #[test]

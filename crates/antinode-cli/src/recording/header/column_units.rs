@@ -4,7 +4,7 @@ use super::super::error::{Fault, TIME};
 use super::super::lines::Lines;
 use super::super::preamble::Start;
 use super::super::sequence::{Counted, Sequence};
-use super::super::signal_units::{Together, together};
+use super::super::signal_units::{Together, is_known, together};
 use super::super::units::{
     are_bracketed, are_units, bare, has_unknown_unit, is_bracketed, of_name, of_time, time_exponent,
 };
@@ -19,12 +19,16 @@ pub(super) struct SignalUnits {
 }
 
 impl Header {
-    /// The units of the signals that the settings name.
+    /// The units of the signals that the settings name, unless they know neither.
     pub(super) fn units_over(&self, start: &Start) -> Option<SignalUnits> {
         let (units, line) = start.units.as_ref()?;
-        let [c, d] = [1, 2].map(|role| units.get(self.places[role]?).cloned());
-        Some(SignalUnits {
-            of: [c?, d?],
+        let [c, d] = [1, 2].map(|role| {
+            let unit = units.get(self.places[role]?);
+            unit.filter(|unit| !unit.is_empty()).cloned()
+        });
+        let of = [c?, d?];
+        of.iter().any(|unit| is_known(unit)).then_some(SignalUnits {
+            of,
             are_sure: true,
             line: *line as u64,
         })

@@ -19,8 +19,8 @@ pub(super) fn unit_of_time(line: &Line) -> Option<(String, usize)> {
         .map(|unit| (text(unit), line.before))
 }
 
-/// The fields of a line of settings that has a unit over each of these columns, or over all but the first, and the number of lines before it:
-/// `Vertical Units,mV,V`, or `Vertical Units,CH1:mV,CH2:V`.
+/// The fields of a line of settings that has a unit over one of these columns, and the number of lines before it: `Vertical Units,mV,V`, or
+/// `Vertical Units,CH1:mV,CH2:V`.
 pub(super) fn units_over(line: &Line, columns: &[usize]) -> Option<(Vec<String>, usize)> {
     let label = lossy(line.fields.first()?).to_lowercase();
     let is_told = ["unit", "einheit", "unidad"]
@@ -30,12 +30,9 @@ pub(super) fn units_over(line: &Line, columns: &[usize]) -> Option<(Vec<String>,
         let text = lossy(field);
         bare(text.rsplit(':').next().unwrap_or_default()).to_owned()
     };
-    let units: Vec<String> = line.fields.iter().map(unit).collect();
-    let signals = if columns.len() > 2 {
-        &columns[1..]
-    } else {
-        columns
-    };
+    let mut units: Vec<String> = line.fields.iter().map(unit).collect();
+    // The label is none.
+    units[0].clear();
     let is_unit = |&place: &usize| units.get(place).is_some_and(|unit| is_known(unit));
-    (is_told && signals.iter().all(is_unit)).then_some((units, line.before))
+    (is_told && columns.iter().any(is_unit)).then_some((units, line.before))
 }

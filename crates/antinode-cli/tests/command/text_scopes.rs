@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 use std::fs;
 
-use crate::common::{Row, WAVE, fault, printed, rows_of, run, same_later, text};
+use crate::common::{Row, WAVE, fault, printed, rows_of, run, run_with, same_later, text};
 
 /// A recording under another header; `print` makes its lines of their number and their samples.
 fn recording(header: &str, print: impl Fn(usize, [f64; 2]) -> String) -> String {
@@ -240,6 +240,32 @@ fn times_that_each_stand_in_two_lines_are_refused_as_peak_detect() {
         ];
         assert!(fault(here, "-", text.into(), &told).is_empty());
     }
+}
+
+#[test]
+fn columns_of_peak_detect_are_refused() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let one = recording("TIME,CH1,CH1 Peak Detect\n", |k, [c, d]| {
+        format!("{:.5},{c},{d}", k as f64 * 1e-5)
+    });
+    let told = "input:1: the column `CH1 Peak Detect` shows that these are a minimum and a maximum (peak detect, envelope); record or export \
+                single samples of both channels, in sample mode";
+    let refused = run_with(here, "identify -", one.into());
+    assert_eq!((refused.code, refused.out.as_str()), (1, ""));
+    assert!(
+        refused.err.ends_with(&format!("{told}\n")),
+        "{}",
+        refused.err
+    );
+    let header = "TIME,CH1,CH1 Peak Detect,CH2,CH2 Peak Detect\n";
+    let two = recording(header, |k, [c, d]| {
+        format!("{:.5},{c},{},{d},{}", k as f64 * 1e-5, c + 0.1, d + 0.1)
+    });
+    let told = format!("{told}, or choose one column of each channel with --columns TIME,C,D");
+    assert!(fault(here, "-", two.clone().into(), &[&told]).is_empty());
+    let expected = rows_of(here, &text(&WAVE.codes(5000)), "");
+    same_later(&rows_of(here, &two, "--columns 1,2,4"), &expected, 0.0);
 }
 
 #[test]

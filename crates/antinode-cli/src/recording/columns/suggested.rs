@@ -18,12 +18,16 @@ const ONE_SIGNAL: &str = "found the time and one signal, but both S_C and S_D ar
                           files side by side with `paste -d, c.csv d.csv`, and choose the columns with --columns TIME,C,D; if these are two \
                           signals without a time, give --columns C,D";
 
+/// The end of the names of columns that hold the other extreme of a channel beside it.
+const PEAKS: &str = "peak detect";
+
 /// The names of the first two of four channels, the others being `C` and `D`.
 const OTHER_CHANNELS: [&str; 2] = ["a", "b"];
 
 impl FirstLine<'_> {
     /// The places that the names or the number of columns suggest.
     pub(super) fn suggested(&self) -> Result<Places, String> {
+        self.check_is_sampled()?;
         let all: Vec<usize> = (0..self.width).collect();
         let numbers: Vec<usize> = self
             .start
@@ -65,6 +69,25 @@ impl FirstLine<'_> {
             [time] if others.iter().all(is_signal) => Some(*time),
             _ => None,
         }
+    }
+
+    /// Fails if the names tell that there are minima and maxima: the two of a channel look like two signals.
+    fn check_is_sampled(&self) -> Result<(), String> {
+        let names = self.names.unwrap_or_default();
+        let mut peaks = names
+            .iter()
+            .filter(|name| name.to_lowercase().ends_with(PEAKS));
+        let Some(first) = peaks.next() else {
+            return Ok(());
+        };
+        let remedy = peaks.next().map_or(
+            "",
+            |_| ", or choose one column of each channel with --columns TIME,C,D",
+        );
+        Err(format!(
+            "the column `{first}` shows that these are a minimum and a maximum (peak detect, envelope); record or export single samples of \
+             both channels, in sample mode{remedy}"
+        ))
     }
 
     /// Fails if the names of S_C and S_D are given twice among these columns, or are those of two channels of four.

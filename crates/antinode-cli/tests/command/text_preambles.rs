@@ -280,6 +280,17 @@ fn a_comment_behind_each_line_of_labview_is_no_sample() {
 }
 
 #[test]
+fn one_channel_of_labview_is_no_pair() {
+    let directory = tempfile::tempdir().unwrap();
+    let text = recording(
+        &labview("One", "X_Value\tAcceleration"),
+        |_, time, [c, _]| format!("{time:.5}\t{c}"),
+    );
+    let told = ["input:22: found the time and one signal, but both S_C and S_D are needed"];
+    assert!(fault(directory.path(), "-", text.into(), &told).is_empty());
+}
+
+#[test]
 fn lines_count_from_the_first_of_the_settings() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();

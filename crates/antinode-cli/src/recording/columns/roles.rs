@@ -15,9 +15,8 @@ pub(super) fn bare_name(name: &str) -> String {
 pub(super) fn role(name: &str) -> Option<usize> {
     match bare_name(name).as_str() {
         "t" | "time" | "times" | "ts" | "s" | "sec" | "second" | "seconds" | "timestamp"
-        | "timems" | "timeus" | "timens" | "tms" | "tus" | "tns" | "millis" | "micros" => {
-            Some(TIME)
-        }
+        | "xvalue" | "timems" | "timeus" | "timens" | "tms" | "tus" | "tns" | "millis"
+        | "micros" => Some(TIME),
         "c" | "sc" | "left" => Some(1),
         "d" | "sd" | "right" => Some(2),
         _ => None,

@@ -21,7 +21,7 @@ use indicatif::ProgressBar;
 use crate::failure::Failure;
 use crate::options::Format;
 use crate::progress;
-use crate::ranges::in_order;
+use crate::ranges::{RATES, in_order};
 use crate::recording::{BLOCK_PAIRS, Columns, OpenOptions, Recording, place};
 use crate::result_file::check_is_no_input;
 use crate::rows::Rows;
@@ -208,7 +208,7 @@ fn sample_rate(
 ) -> Result<f64, Failure> {
     match (asked, own) {
         (Some(rate), _) => Ok(rate),
-        (None, Some(rate)) if (1.0..=1e10).contains(&rate) => Ok(rate),
+        (None, Some(rate)) if RATES.contains(&rate) => Ok(rate),
         (None, Some(rate)) => Err(Failure::Fault(format!(
             "{name}: the recording states an absurd sample rate of {rate} Hz; give the true one as --rate HZ"
         ))),

@@ -1,6 +1,11 @@
 //! Parsers of options that are numbers: each checks the range, in the unit in which the option is given.
 
+use std::ops::RangeInclusive;
+
 use crate::failure::Failure;
+
+/// Sample rates that the core takes, Hz.
+pub const RATES: RangeInclusive<f64> = 1e-3..=1e12;
 
 /// The number in `text`, if it lies within these limits; `unit`, if not empty, begins with a blank or a comma.
 pub fn within(text: &str, min: f64, max: f64, unit: &str) -> Result<f64, String> {
@@ -33,7 +38,12 @@ pub fn seed(text: &str) -> Result<u64, String> {
 
 /// A sample rate, Hz.
 pub fn rate(text: &str) -> Result<f64, String> {
-    within(text, 1.0, 1e10, " Hz, 100000 for 100 kS/s")
+    within(
+        text,
+        *RATES.start(),
+        *RATES.end(),
+        " Hz, 100000 for 100 kS/s",
+    )
 }
 
 /// An angle or a phase, rad.

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use antinode::Estimate;
 use serde::Serialize;
 
-use crate::digits::{fixed, heading, significant, with_std};
+use crate::digits::{exponent, fixed, heading, significant, with_std};
 use crate::methods::rows::{self as of_methods, Columns};
 use crate::methods::{Methods, table as method_table};
 use crate::options::Format;
@@ -41,9 +41,12 @@ struct Row<'a> {
 
 impl<'a> Row<'a> {
     fn new(file: &'a str, flags: &'a str, e: &Estimate) -> Self {
-        // Nine decimals of an angle are finer than any bound, and twelve of a time finer than any clock: more would mean nothing.
+        // Nine decimals of an angle are finer than any bound, and twelve of a time finer than any clock: more would mean nothing, unless a
+        // period is so short that the phase needs them.
         let to = |x: f64, unit: f64| (x * unit).round() / unit;
-        let mut time = to(e.time, 1e12);
+        let finest = 1e12f64.max(10f64.powf(exponent(e.frequency) + 6.0));
+        let finest = finest.min(1e18);
+        let mut time = to(e.time, finest);
         // A double always holds fifteen digits; a time in s since 1970 needs the few that it may hold beyond them.
         if time.abs() < 1e4 {
             time = significant(time, 15);
@@ -55,7 +58,7 @@ impl<'a> Row<'a> {
             quadrature_amplitude: e.quadrature_amplitude,
             angle_rad: to(e.angle, 1e9),
             phase_rad: e.phase,
-            // Significant digits, not decimals: the sample rate may be 1 Hz or 10 GHz.
+            // Significant digits, not decimals: the sample rate may be 1 mHz or 1 THz.
             frequency_hz: significant(e.frequency, 13),
             angle_rate_rad_s: e.angle_rate,
             decay_rate_s: e.decay_rate,

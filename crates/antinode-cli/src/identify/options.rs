@@ -28,7 +28,7 @@ pub struct Identify {
     /// an offset, which does no harm, unless the wave is smaller than 70 codes and so may not be found: store such codes as signed integers.
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
-    /// Sample rate, Hz, 1 to 1e10 [default: the recording's own].
+    /// Sample rate, Hz, 0.001 to 1e12 [default: the recording's own].
     #[arg(long, value_name = "HZ", value_parser = ranges::rate, help_heading = "Recording")]
     pub rate: Option<f64>,
     /// Identify only samples from this time on, s, on the scale of `time_s`: the recording's time column, or else the time since the first

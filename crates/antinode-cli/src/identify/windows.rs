@@ -13,6 +13,7 @@ use super::search::unsearched_wave::alias;
 use super::span::{Span, Step};
 use super::stop::Stop;
 use super::{Core, LONGEST_PERIOD, SHORTEST_PERIOD, is_pipe};
+use crate::digits::significant;
 use crate::failure::Failure;
 use crate::methods::History;
 use crate::recording::Recording;
@@ -59,9 +60,9 @@ impl<'a> Windows<'a> {
         let core = Core::new(settings).map_err(|error| match error {
             SettingsError::Frequency(frequency)
             | SettingsError::FrequencyTooLow { frequency, .. } => Failure::Usage(format!(
-                "{name}: --frequency: {frequency} Hz is out of range: at a sample rate of {rate} Hz it must be {:.6} to {} Hz, \
+                "{name}: --frequency: {frequency} Hz is out of range: at a sample rate of {rate} Hz it must be {} to {} Hz, \
                  {LONGEST_PERIOD} to {SHORTEST_PERIOD} samples a period{}",
-                rate / LONGEST_PERIOD as f64,
+                significant(rate / LONGEST_PERIOD as f64, 7),
                 rate / SHORTEST_PERIOD,
                 alias(f64::from(frequency), rate)
             )),

@@ -25,23 +25,27 @@ const INTERVALS: [&str; 7] = [
 ];
 
 /// Units of a rate, and their powers of ten. None is in mHz.
-const RATE_UNITS: [(&str, i32); 13] = [
+const RATE_UNITS: [(&str, i32); 17] = [
     ("hz", 0),
     ("khz", 3),
     ("mhz", 6),
+    ("ghz", 9),
     ("s/s", 0),
     ("ks/s", 3),
     ("ms/s", 6),
+    ("gs/s", 9),
     ("sa/s", 0),
     ("ksa/s", 3),
     ("msa/s", 6),
+    ("gsa/s", 9),
     ("sps", 0),
     ("ksps", 3),
     ("msps", 6),
+    ("gsps", 9),
     ("", 0),
 ];
-/// Rates that can be meant, Hz.
-const POSSIBLE: std::ops::RangeInclusive<f64> = 1.0..=1e10;
+/// Rates that can be meant, Hz: slower ones may be in another unit.
+const POSSIBLE: std::ops::RangeInclusive<f64> = 1.0..=1e12;
 /// Relative difference of two statements of the same rate.
 const SAME: f64 = 1e-6;
 
@@ -153,6 +157,7 @@ mod tests {
             "Sampling Rate (Hz): 100000",
             "sampling period = 10 µs",
             "Sampling rate 0.1 MSa/s",
+            "Sample rate: 0.0001 GS/s",
             "// Abtastrate 100 kHz",
             "CH1V,CH2V,t0 = -1e-3, tInc = 1e-5",
         ] {

@@ -43,6 +43,32 @@ fn an_impossible_rate_is_reported() {
 }
 
 #[test]
+fn rows_are_the_same_at_any_rate() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    fs::write(here.join("a.npy"), npy(&WAVE.codes(20_000))).unwrap();
+    let expected = rows(here, "a.npy --rate 1e5");
+    for rate in ["1e-3", "12.8e9", "1e12"] {
+        let found = rows(here, &format!("a.npy --rate {rate}"));
+        assert_eq!(found.len(), expected.len());
+        let rate: f64 = rate.parse().unwrap();
+        for (found, expected) in found.iter().zip(&expected) {
+            let samples = found.number("time_s") * rate - expected.number("time_s") * RATE;
+            assert!(samples.abs() < 1e-4, "{rate}: {samples}");
+            let apart = found.number("frequency_hz") / expected.number("frequency_hz") * RATE;
+            assert!((apart / rate - 1.0).abs() < 1e-7, "{rate}: {apart}");
+            for name in ["main_amplitude", "angle_rad", "phase_rad", "angle_std_rad"] {
+                let apart = found.number(name) - expected.number(name);
+                assert!(apart.abs() < 1e-4, "{rate} {name}: {apart}");
+            }
+        }
+    }
+    let range = "it must be 0.0000009765625 to 0.0004 Hz";
+    let refused = run(here, "identify a.npy --rate 1e-3 --frequency 1");
+    assert!(refused.err.contains(range), "{}", refused.err);
+}
+
+#[test]
 fn counts_may_have_an_exponent() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
@@ -71,10 +97,13 @@ fn options_that_make_no_sense_are_refused() {
             "--hop <BLOCKS>': it must be a whole number from 1 to 65535",
         ),
         ("--rate fast", "'fast' for '--rate <HZ>'"),
-        ("--rate 0", "'--rate <HZ>': it must be 1 to 10000000000 Hz"),
-        ("--rate -5", "'--rate <HZ>': it must be 1 to"),
-        ("--rate nan", "'--rate <HZ>': it must be 1 to"),
-        ("--rate 1e20", "'--rate <HZ>': it must be 1 to"),
+        (
+            "--rate 0",
+            "'--rate <HZ>': it must be 0.001 to 1000000000000 Hz",
+        ),
+        ("--rate -5", "'--rate <HZ>': it must be 0.001 to"),
+        ("--rate nan", "'--rate <HZ>': it must be 0.001 to"),
+        ("--rate 1e20", "'--rate <HZ>': it must be 0.001 to"),
         (
             "--gain-ratio 0",
             "'--gain-ratio <RATIO>': it must be 0.1 to 10",
@@ -133,7 +162,12 @@ fn options_that_make_no_sense_are_refused() {
     assert_eq!((ends.code, ends.err.as_str()), (0, ""));
     assert!(ends.out.starts_with("time_s,"));
     let help = run(here, "identify --help").out;
-    for range in ["0.1 to 10", "within ±1000000", "within ±0.3", "1 to 1e10"] {
+    for range in [
+        "0.1 to 10",
+        "within ±1000000",
+        "within ±0.3",
+        "0.001 to 1e12",
+    ] {
         assert!(help.contains(range), "{range}");
     }
     assert!(help.contains("[possible values: table, csv, jsonl]") || help.contains("- jsonl:"));

@@ -242,7 +242,7 @@ fn an_impossible_frequency_is_refused() {
         assert_eq!((run.code, run.out.as_str()), (2, ""), "{}", run.err);
         assert!(run.err.contains("--frequency"), "{}", run.err);
     }
-    let range = "a.wav: --frequency: 40001 Hz is out of range: at a sample rate of 100000 Hz it must be 97.656250 to 40000 Hz, 1024 to 2.5 samples a period";
+    let range = "a.wav: --frequency: 40001 Hz is out of range: at a sample rate of 100000 Hz it must be 97.65625 to 40000 Hz, 1024 to 2.5 samples a period";
     let told = run(here, "identify a.wav --frequency 40001").err;
     assert!(told.contains(range), "{told}");
     let both = run(

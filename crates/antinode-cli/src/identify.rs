@@ -184,6 +184,10 @@ fn open(path: &Path, options: &Identify) -> Result<(Recording, f64), Failure> {
         }
     }
     let name = &recording.name;
+    let absurd = recording.opened.absurd.as_ref();
+    if let Some(absurd) = absurd.filter(|_| options.rate.is_none()) {
+        return Err(Failure::Fault(format!("{name}: {absurd}")));
+    }
     let own = recording.opened.sample_rate;
     let rate = sample_rate(name, options.rate, own, options.columns.as_ref())?;
     let rails = options.full_scale;

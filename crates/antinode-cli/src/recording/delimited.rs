@@ -1,5 +1,6 @@
 //! Text recordings: one pair a line, with or without the time before it.
 
+mod doubts;
 mod fields;
 mod rows;
 
@@ -67,6 +68,7 @@ pub(super) fn open(stream: Stream, options: &OpenOptions, live: bool) -> Result<
     Ok(Opened {
         format: "CSV".to_owned(),
         sample_rate,
+        absurd: sample_rate.and_then(|own| source.absurd(own)),
         start: if meaning == Some(Meaning::Index) {
             0.0
         } else {
@@ -207,31 +209,6 @@ impl Delimited {
             });
         }
         Ok(())
-    }
-
-    /// The warning about a time column that may mean something else, or a sample rate that contradicts `--rate`.
-    fn warning(&self, meaning: Meaning) -> Option<String> {
-        let samples = self.rows.header.samples();
-        let ignored = format!("ignore it with --columns {samples} --rate HZ");
-        Some(match meaning {
-            Meaning::Time => return None,
-            Meaning::PerhapsIndex => format!(
-                "the time column increases by 1 per line, and is read as seconds; if it is an index, {ignored}"
-            ),
-            Meaning::Index => {
-                "the time column increases by 1 per line, and is read as an index because --rate is given: times of rows \
-                 count from the first sample; if it is seconds, omit --rate"
-                    .to_owned()
-            }
-            Meaning::OtherRate { own, asked } if self.rows.axis.is_none() => format!(
-                "the sample rate is {own} Hz by its settings and {asked} Hz by --rate, which takes precedence; \
-                 omit --rate if the settings are right"
-            ),
-            Meaning::OtherRate { own, asked } => format!(
-                "the sample rate is {own} Hz by the time column and {asked} Hz by --rate, which takes precedence; \
-                 omit --rate, or if the column is wrong, {ignored}"
-            ),
-        })
     }
 
     /// Appends pairs until there are `capacity`, as [`Source::fill`] says.

@@ -25,6 +25,8 @@ pub(super) struct Header {
     pub counter: Option<usize>,
     /// The power of ten of the time's unit in seconds: −3 for ms.
     pub exponent: i32,
+    /// Whether the file tells that unit; otherwise it is taken to be s.
+    pub has_unit_of_time: bool,
     /// What the time column is if it holds clock times, which have no unit.
     pub stamp: Option<Stamped>,
     /// The times of the samples, if these are counted from a start in equal steps.
@@ -91,6 +93,7 @@ impl Header {
             places,
             counter: line.counter(places).filter(|_| chosen.is_none()),
             exponent: 0,
+            has_unit_of_time: false,
             stamp: places[TIME].and_then(|place| lines.stamps.at(place)),
             sequence: sequence.filter(|_| places[TIME].is_none()),
             stated: *stated,
@@ -100,7 +103,7 @@ impl Header {
         header.warnings.extend(start.cut.map(|line| format!(
             "line {line} seems to lack its beginning, as if the logger had been attached in the middle of it, and is left out"
         )));
-        let (has_unit_of_time, told) = match names {
+        let (has_time, told) = match names {
             Some(names) => {
                 let (has_time, told) = header.read_units(lines, names, below, counted)?;
                 (has_time, Some(told))
@@ -116,7 +119,8 @@ impl Header {
         if let Some(units) = units {
             header.bring_together(&units)?;
         }
-        if !has_unit_of_time {
+        header.has_unit_of_time = has_time || header.stamp.is_some() || start.unit.is_some();
+        if !has_time {
             let doubt = header.doubt_time(names, start)?;
             header.warnings.extend(doubt);
         }

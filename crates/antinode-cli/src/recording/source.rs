@@ -140,6 +140,8 @@ pub struct Opened {
     pub format: String,
     /// The sample rate in Hz from a WAV header or a time column.
     pub sample_rate: Option<f64>,
+    /// What is wrong with that rate, if it must not be used.
+    pub absurd: Option<String>,
     /// The time of the first pair by the recording's own time column or settings, s; 0 if there are none, or only an index.
     pub start: f64,
     /// Warnings about content that can be read but is hardly meant so, or is not read as it is written.
@@ -162,6 +164,7 @@ impl Opened {
             source,
             format: format!("{format} {}", code.words()),
             sample_rate: None,
+            absurd: None,
             start: 0.0,
             warnings: Vec::new(),
             pairs,

@@ -19,7 +19,7 @@ fn an_impossible_rate_is_reported() {
         here,
         "slow.csv",
         Vec::new(),
-        &["slow.csv: ", "absurd sample rate of 0.2 Hz", "as --rate HZ"],
+        &["slow.csv: ", "absurd sample rate of 0.2 Hz", "--rate HZ"],
     );
     fault(
         here,

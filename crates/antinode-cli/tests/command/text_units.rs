@@ -231,6 +231,43 @@ fn an_unknown_unit_of_time_in_brackets_is_not_taken_for_seconds() {
 }
 
 #[test]
+fn a_time_too_slow_for_seconds_must_tell_its_unit() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let other =
+        "if its times are in us, in ms or really in s, the header must say so, as in `time (us)`";
+    for header in ["", "time,c,d\n"] {
+        // As a microcontroller counts microseconds.
+        fs::write(here.join("a.csv"), scaled(header, 1e6, [1.0, 1.0])).unwrap();
+        let told = format!(
+            "a.csv: the time column gives an absurd sample rate of 0.1 Hz; {other}, or ignore the time column with --columns 2,3 --rate HZ"
+        );
+        no_rows(here, "a.csv", Vec::new(), &[&told]);
+        let run = done(here, "identify a.csv --rate 1e5");
+        let told = format!("which takes precedence; {other}, or if the column is wrong, ignore it");
+        assert!(run.err.contains(&told), "{}", run.err);
+    }
+    // Seconds may be as long, if the header says so.
+    for (header, frequency) in [
+        ("time (us),c,d\n", 5321.7),
+        ("time (s),c,d\n", 5321.7e-6),
+        ("time,c,d\ns,V,V\n", 5321.7e-6),
+        ("Model,X\nHorizontal Units,s\ntime,c,d\n", 5321.7e-6),
+    ] {
+        fs::write(here.join("a.csv"), scaled(header, 1e6, [1.0, 1.0])).unwrap();
+        let found = rows(here, "a.csv");
+        let apart = found[0].number("frequency_hz") / frequency - 1.0;
+        assert!(found.len() > 20 && apart.abs() < 1e-2, "{header}: {apart}");
+    }
+    // A rate that is absurd in any case is not recommended.
+    let text = scaled("time (s),c,d\n", 1e9, [1.0, 1.0]);
+    fs::write(here.join("a.csv"), text).unwrap();
+    let run = done(here, "identify a.csv --rate 1e5");
+    let told = "which takes precedence; correct the column's unit, or if";
+    assert!(run.err.contains(told), "{}", run.err);
+}
+
+#[test]
 fn a_time_with_an_unknown_unit_in_its_name_is_read_as_seconds_with_a_warning() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();

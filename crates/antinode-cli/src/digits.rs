@@ -50,6 +50,17 @@ fn decimals_up_to(max: f64, std: f64) -> usize {
     }
 }
 
+/// The number of decimals, 6 or more, that tells samples of this rate, Hz, apart by their times.
+pub fn decimals_of_times(rate: f64) -> usize {
+    rate.log10().ceil().clamp(6.0, 12.0) as usize
+}
+
+/// A time or a length in s, to 4 decimals, or to more if it takes more to show two digits of a `whole`.
+pub fn seconds(time: f64, whole: f64) -> String {
+    let decimals = (1.0 - exponent(whole)).clamp(4.0, 12.0) as usize;
+    fixed(decimals, time)
+}
+
 /// A number in fixed notation, without a sign if it rounds to zero.
 pub fn fixed(decimals: usize, x: f64) -> String {
     let text = format!("{x:.decimals$}");
@@ -220,6 +231,30 @@ mod tests {
     fn a_value_without_deviation_stands_alone() {
         assert_eq!(with_std(0.5, f64::NAN), " 0.500000         ");
         assert_eq!(with_std(0.5, 0.0), " 0.500000         ");
+    }
+
+    #[test]
+    fn times_have_the_digits_that_a_rate_or_a_length_needs() {
+        for (rate, decimals) in [
+            (1.0, 6),
+            (1e5, 6),
+            (1e6, 6),
+            (2e6, 7),
+            (2e9, 10),
+            (1e12, 12),
+        ] {
+            assert_eq!(decimals_of_times(rate), decimals, "{rate}");
+        }
+        for (time, whole, text) in [
+            (0.5, 0.5, "0.5000"),
+            (0.5, 0.0, "0.500000000000"),
+            (1e-3, 1e-3, "0.0010"),
+            (4.2e-7, 4.2e-7, "0.00000042"),
+            (1e-8, 4.2e-7, "0.00000001"),
+            (1234.5, 1e4, "1234.5000"),
+        ] {
+            assert_eq!(seconds(time, whole), text);
+        }
     }
 
     #[test]

@@ -128,7 +128,7 @@ fn identify(
     if is_watched {
         tell(&title);
     }
-    rows.begin(several.then_some(title));
+    rows.begin(several.then_some(title), rate);
 
     let is_shown = options.file().is_none() && io::stdout().is_terminal();
     let is_pipe = is_pipe(&recording);

@@ -5,13 +5,16 @@ use std::io::{self, Write};
 use antinode::Estimate;
 use serde::Serialize;
 
-use crate::digits::{exponent, fixed, heading, significant, with_std};
+use crate::digits::{decimals_of_times, exponent, fixed, heading, significant, with_std};
 use crate::methods::rows::{self as of_methods, Columns};
 use crate::methods::{Methods, table as method_table};
 use crate::options::Format;
 
 /// The heading of a table's first quantity, which no other format has.
 pub const MAIN_AMPLITUDE: &str = "main amplitude";
+
+/// Width of the times in a table, unless they have many decimals.
+const MIN_TIME_WIDTH: usize = 10;
 
 /// One row of CSV or JSON lines; the names are the columns.
 #[derive(Debug, Serialize)]
@@ -104,6 +107,8 @@ pub struct Rows<W: Write> {
     wide: bool,
     /// The line above the next table, if it is not yet written.
     title: Option<String>,
+    /// Decimals of the times in a table.
+    decimals: usize,
 }
 
 impl<W: Write> Rows<W> {
@@ -124,14 +129,16 @@ impl<W: Write> Rows<W> {
             count: 0,
             before: 0,
             title: None,
+            decimals: 6,
             wide,
         }
     }
 
-    /// Begins a recording; `title` stands above its table.
-    pub fn begin(&mut self, title: Option<String>) {
+    /// Begins a recording of this sample rate; `title` stands above its table.
+    pub fn begin(&mut self, title: Option<String>, rate: f64) {
         self.before += std::mem::take(&mut self.count);
         self.title = title;
+        self.decimals = decimals_of_times(rate);
     }
 
     /// Prints one window, with its methods where they were asked for and are known.
@@ -144,6 +151,7 @@ impl<W: Write> Rows<W> {
         self.count += 1;
         let flags = estimate.flags.to_string();
         let row = Row::new(file, &flags, estimate);
+        let width = MIN_TIME_WIDTH.max(self.decimals + 4);
         match &mut self.sink {
             Sink::Table(out) => {
                 // A recording without a row gets no heading.
@@ -154,11 +162,11 @@ impl<W: Write> Rows<W> {
                     if let Some(title) = self.title.take() {
                         writeln!(out, "{}{title}", if self.before > 0 { "\n" } else { "" })?;
                     }
-                    table_heading(out)?;
+                    table_heading(out, width)?;
                 }
-                table(out, estimate)?;
+                table(out, estimate, self.decimals, width)?;
                 methods.map_or(Ok(()), |methods| {
-                    method_table::table(out, estimate, methods)
+                    method_table::table(out, estimate, methods, width)
                 })
             }
             Sink::Csv(out) if self.wide => {
@@ -218,12 +226,12 @@ fn header(row: &Row) -> io::Result<csv::StringRecord> {
     Ok(csv::Reader::from_reader(text.as_slice()).headers()?.clone())
 }
 
-/// The line above a table.
-fn table_heading(out: &mut impl Write) -> io::Result<()> {
+/// The line above a table whose times are so wide.
+fn table_heading(out: &mut impl Write, width: usize) -> io::Result<()> {
     let names = [MAIN_AMPLITUDE, "quadrature", "angle, °", "frequency, Hz"].map(heading);
     writeln!(
         out,
-        "{:>10} {} {:>8} {:>8} {:>8}  flags",
+        "{:>width$} {} {:>8} {:>8} {:>8}  flags",
         "time, s",
         names.join(" "),
         "turn,°/s",
@@ -232,11 +240,11 @@ fn table_heading(out: &mut impl Write) -> io::Result<()> {
     )
 }
 
-/// A line of a table.
-fn table(out: &mut impl Write, e: &Estimate) -> io::Result<()> {
+/// A line of a table, with its time to so many decimals.
+fn table(out: &mut impl Write, e: &Estimate, decimals: usize, width: usize) -> io::Result<()> {
     let line = format!(
-        "{:>10} {} {} {} {} {:>8} {:>8} {:>8.1e}  {}",
-        fixed(6, e.time),
+        "{:>width$} {} {} {} {} {:>8} {:>8} {:>8.1e}  {}",
+        fixed(decimals, e.time),
         with_std(e.main_amplitude.into(), e.main_amplitude_std.into()),
         with_std(
             e.quadrature_amplitude.into(),

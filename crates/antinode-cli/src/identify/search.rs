@@ -6,6 +6,7 @@ use super::first_pairs::{amplitude_beyond, large_offset};
 use super::options::{Detector, Identify};
 use super::remarks::equal_samples::EqualSamples;
 use super::{Core, LONGEST_PERIOD, SHORTEST_PERIOD};
+use crate::digits::seconds;
 use unsearched_wave::UnsearchedWave;
 
 /// Three of the longest periods that are searched: fewer pairs may be too few to find a period.
@@ -64,7 +65,8 @@ impl Search {
         equal: &EqualSamples,
     ) -> String {
         let pairs = core.index();
-        let all = format!("{pairs} sample pairs ({:.4} s)", pairs as f64 / rate);
+        let length = pairs as f64 / rate;
+        let all = format!("{pairs} sample pairs ({} s)", seconds(length, length));
         let periods = options.periods;
         if let Some(warning) = equal.constant().filter(|_| equal.are_both_constant()) {
             let sought = if core.is_searching() {

@@ -1,6 +1,7 @@
 //! Which samples of a recording are identified: `--from` and `--to`.
 
 use super::options::Identify;
+use crate::digits::decimals_of_times;
 use crate::failure::Failure;
 use crate::recording::Recording;
 
@@ -124,6 +125,7 @@ impl Span {
     /// The failure if the recording, read as far as was asked, has no sample in the span.
     pub fn missing(&self, name: &str) -> Option<Failure> {
         let (start, end) = (self.start, self.time(self.number));
+        let decimals = decimals_of_times(self.rate);
         let told = match self.asked {
             _ if self.begun.is_some() => return None,
             [_, Some(to)] if self.end == 0 => {
@@ -131,7 +133,7 @@ impl Span {
             }
             [Some(from), _] if self.number <= self.first => {
                 format!(
-                    "--from {from} s: the recording goes from {start} s to {end:.6} s; give a time within it"
+                    "--from {from} s: the recording goes from {start} s to {end:.decimals$} s; give a time within it"
                 )
             }
             [Some(from), Some(to)] => {
@@ -147,10 +149,11 @@ impl Span {
     /// A warning if the recording has only a part of the span.
     pub fn warning(&self) -> Option<String> {
         let (begins, ends) = (self.start, self.time(self.number));
+        let decimals = decimals_of_times(self.rate);
         let early = self.asked[0].filter(|&from| (begins - from) * self.rate > 0.5);
         let late = self.asked[1].filter(|_| self.number < self.end);
         let early = early.map(|from| format!("begins at {begins} s, after --from {from} s"));
-        let late = late.map(|to| format!("ends at {ends:.6} s, before --to {to} s"));
+        let late = late.map(|to| format!("ends at {ends:.decimals$} s, before --to {to} s"));
         let told: Vec<String> = early.into_iter().chain(late).collect();
         (self.begun.is_some() && !told.is_empty())
             .then(|| format!("the recording {}", told.join(", and ")))

@@ -22,8 +22,13 @@ pub fn legend(out: &mut impl Write) -> io::Result<()> {
     )
 }
 
-/// Prints one line a method, in the columns of the row above, and a warning if the methods disagree.
-pub fn table(out: &mut impl Write, e: &Estimate, methods: &Methods) -> io::Result<()> {
+/// Prints one line a method, in the columns of the row above, whose time is so wide, and a warning if the methods disagree.
+pub fn table(
+    out: &mut impl Write,
+    e: &Estimate,
+    methods: &Methods,
+    width: usize,
+) -> io::Result<()> {
     let comparison = &methods.comparison;
     for (i, method) in comparison.methods.iter().enumerate() {
         let shape = method.wave.shape;
@@ -38,7 +43,7 @@ pub fn table(out: &mut impl Write, e: &Estimate, methods: &Methods) -> io::Resul
         }
         writeln!(
             out,
-            "{:>10} {} {} {} {} {:>17} {:>8.1e}  {remarks}",
+            "{:>width$} {} {} {} {} {:>17} {:>8.1e}  {remarks}",
             format!("method {}", i + 1),
             with_sigmas(shape.main_amplitude, e.main_amplitude_std.into(), main),
             with_sigmas(
@@ -61,7 +66,7 @@ pub fn table(out: &mut impl Write, e: &Estimate, methods: &Methods) -> io::Resul
         )?;
     }
     if comparison.disagree {
-        writeln!(out, "{:>10} {DISAGREE}", "warning:")?;
+        writeln!(out, "{:>width$} {DISAGREE}", "warning:")?;
     }
     Ok(())
 }

@@ -2,6 +2,8 @@
 
 use antinode::{Estimate, Flags};
 
+use crate::digits::seconds;
+
 /// Windows or periods that a search and the window after it may take.
 const SEARCH_WINDOWS: f64 = 3.0;
 const SEARCH_PERIODS: f64 = 20.0;
@@ -38,19 +40,22 @@ impl Silence {
     }
 
     /// A warning for a recording of this length, s, whose first sample has the time `start`.
-    pub fn warning(&self, seconds: f64, start: f64) -> Option<String> {
+    pub fn warning(&self, length: f64, start: f64) -> Option<String> {
         let [begin, end] = self.rows?;
-        let min = self.usual.max(MIN_SECONDS.min(MIN_SHARE * seconds));
-        let parts: Vec<String> = [("first", begin), ("last", seconds - end)]
+        let min = self.usual.max(MIN_SECONDS.min(MIN_SHARE * length));
+        let in_whole = |time: f64| seconds(time, length);
+        let parts: Vec<String> = [("first", begin), ("last", length - end)]
             .into_iter()
             .filter(|&(_, length)| length > min)
-            .map(|(name, length)| format!("the {name} {length:.4} s"))
+            .map(|(name, length)| format!("the {name} {} s", in_whole(length)))
             .collect();
-        let (begin, end) = (start + begin, start + end);
         (!parts.is_empty()).then(|| {
             format!(
-                "no wave was found in {} of {seconds:.4} s: rows with a wave go from {begin:.4} s to {end:.4} s",
-                parts.join(" and ")
+                "no wave was found in {} of {} s: rows with a wave go from {} s to {} s",
+                parts.join(" and "),
+                in_whole(length),
+                seconds(start + begin, end - begin),
+                seconds(start + end, end - begin)
             )
         })
     }

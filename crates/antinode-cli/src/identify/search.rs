@@ -2,12 +2,14 @@
 
 pub(super) mod unsearched_wave;
 
+use antinode::period::DifferenceDetector;
+
 use super::first_pairs::{amplitude_beyond, large_offset};
 use super::options::{Detector, Identify};
 use super::remarks::equal_samples::EqualSamples;
 use super::{Core, LONGEST_PERIOD, SHORTEST_PERIOD};
-use crate::digits::seconds;
-use unsearched_wave::UnsearchedWave;
+use crate::digits::{seconds, significant};
+use unsearched_wave::{MAX_PAIRS, UnsearchedWave};
 
 /// Three of the longest periods that are searched: fewer pairs may be too few to find a period.
 const FEW_PAIRS: u64 = 600;
@@ -27,6 +29,10 @@ pub(super) struct Search {
     /// The amplitude of the first samples, if it lies outside the range that can be identified.
     amplitude_beyond: Option<f64>,
     unsearched: UnsearchedWave,
+    /// The core's own search once more, for its period, and the pairs searched.
+    detector: Box<DifferenceDetector<f32>>,
+    searched: u32,
+    period: Option<f32>,
 }
 
 impl Search {
@@ -51,9 +57,15 @@ impl Search {
         self.has_found = !is_searching;
     }
 
-    /// Takes pairs in which no period has been found yet.
+    /// Takes pairs in which a period was searched for.
     pub fn look(&mut self, pairs: &[[f32; 2]]) {
         self.unsearched.see(pairs);
+        for &pair in pairs {
+            if self.period.is_none() && self.searched < MAX_PAIRS {
+                self.period = self.detector.push(pair);
+                self.searched += 1;
+            }
+        }
     }
 
     /// Why a recording that was read to its end gave no row.
@@ -76,15 +88,14 @@ impl Search {
             };
             return format!("no {sought} found in {all}: {warning}");
         }
-        // A window may be up to a tenth longer than asked.
-        let longest = |frequency: f32| 1.1 * f64::from(periods) * rate / f64::from(frequency);
         let known = options.frequency;
+        let fits = |period: f64| pairs as f64 > longest(periods, period);
         // A scale or an offset that is beyond single precision is the cause; otherwise some likely ones are listed.
         let cause = self.scale_warning().or_else(|| self.offset_warning());
         let also = |warning: Option<String>| {
             warning.map_or(String::new(), |warning| format!("; {warning}"))
         };
-        let why = if let Some(frequency) = known.filter(|&known| pairs as f64 > longest(known)) {
+        let why = if let Some(frequency) = known.filter(|&known| fits(rate / f64::from(known))) {
             let cause = cause.unwrap_or(OTHER_FREQUENCY.to_owned());
             format!(
                 "no window of {periods} periods in {all} is mostly one wave within 5 % of {frequency} Hz: {cause}"
@@ -96,8 +107,19 @@ impl Search {
             )
         } else if !core.is_searching() {
             let found = known.map_or("a period was found, but ", |_| "");
+            let wave = self.period.map_or(String::new(), |period| {
+                let period = f64::from(period);
+                let frequency = significant(rate / period, 3);
+                if fits(period) {
+                    format!(
+                        "; or, as the wave has about {frequency} Hz, give --frequency {frequency}, so that no search precedes the window"
+                    )
+                } else {
+                    format!("; the wave has about {frequency} Hz")
+                }
+            });
             return format!(
-                "{found}{all} hold no window of {periods} periods; record longer or give a smaller --periods"
+                "{found}{all} hold no window of {periods} periods; record longer or give a smaller --periods{wave}"
             );
         } else if pairs < FEW_PAIRS {
             format!(
@@ -121,6 +143,11 @@ impl Search {
             )
         })
     }
+}
+
+/// The most pairs that a window of so many periods may take: it may be up to a tenth longer than asked.
+fn longest(periods: u16, period: f64) -> f64 {
+    1.1 * f64::from(periods) * period
 }
 
 /// Likely causes if a period was found, but no window was a wave; without the remedy for hum if `hum` was given.

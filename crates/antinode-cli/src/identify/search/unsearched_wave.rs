@@ -15,7 +15,7 @@ const MIN_DIFFERENCE_POWER: f64 = 1.6;
 const MIN_AGREEING: u32 = 4;
 const MAX_APART: f32 = 0.02;
 /// Pairs searched, at most: a long recording of noise need not be searched three times to its end.
-const MAX_PAIRS: u32 = 1_000_000;
+pub(super) const MAX_PAIRS: u32 = 1_000_000;
 
 /// A search whose period is accepted once it is found several times in a row.
 #[derive(Debug, Default)]

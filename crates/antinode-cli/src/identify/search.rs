@@ -126,7 +126,7 @@ impl Search {
                 "no period found in only {all}: a search takes 3 periods, or 7 in noise; record longer, or give --frequency if it is known{}",
                 also(cause)
             )
-        } else if let Some(warning) = self.unsearched.warning(rate) {
+        } else if let Some(warning) = self.unsearched.warning(rate, pairs, periods) {
             format!("no period found in {all}: {warning}{}", also(cause))
         } else {
             let cause = cause.unwrap_or_else(|| causes_without_period(options.detector));
@@ -166,12 +166,14 @@ fn causes_of_refusal(hum: bool) -> String {
 /// Likely causes if this detector found no period.
 fn causes_without_period(detector: Detector) -> String {
     let other = match detector {
-        Detector::Difference => "mean-return",
-        Detector::MeanReturn => "difference",
+        Detector::Difference => {
+            "try --detector mean-return, as a second tone may hide the period, or"
+        }
+        // It may have been tried because the other found none.
+        Detector::MeanReturn => "try --detector difference; if that finds none either,",
     };
     format!(
-        "no wave of 4 to 200 samples a period stands out from the noise; check the sample rate, the channels and the signal; try --detector \
-         {other}, as a second tone may hide the period, or give --frequency if it is known and a period has {SHORTEST_PERIOD} to \
-         {LONGEST_PERIOD} samples"
+        "no wave of 4 to 200 samples a period stands out from the noise; check the sample rate, the channels and the signal; {other} give \
+         --frequency if it is known and a period has {SHORTEST_PERIOD} to {LONGEST_PERIOD} samples"
     )
 }

@@ -135,6 +135,42 @@ fn a_recording_too_short_for_a_search_is_reported() {
 }
 
 #[test]
+fn a_known_frequency_is_suggested_if_a_window_then_fits() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    // The search leaves fewer than three of five periods.
+    let slow = Wave {
+        frequency: 500.0,
+        ..WAVE
+    };
+    fs::write(here.join("a.wav"), wav(&slow.codes(1000))).unwrap();
+    let none = "a period was found, but 1000 sample pairs (0.0100 s) hold no window of";
+    let remedy = "; or, as the wave has about 500 Hz, give --frequency 500, so that no search precedes the window";
+    fault(here, "a.wav --periods 4", &[none, remedy]);
+    assert_eq!(rows(here, "a.wav --periods 4 --frequency 500").len(), 1);
+    let why = "give a smaller --periods; the wave has about 500 Hz";
+    fault(here, "a.wav --periods 5", &[none, why]);
+}
+
+#[test]
+fn a_slow_wave_of_few_periods_is_named_with_the_options_that_find_it() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for (frequency, options) in [
+        (200.0, "--frequency 200 --periods 4"),
+        (126.6, "--frequency 127 --periods 2"),
+    ] {
+        let wave = Wave { frequency, ..WAVE };
+        fs::write(here.join("a.wav"), wav(&wave.codes(2500))).unwrap();
+        for detector in ["", " --detector mean-return"] {
+            let told = ["no period found", &format!("give {options}")];
+            fault(here, &format!("a.wav{detector}"), &told);
+        }
+        assert_eq!(rows(here, &format!("a.wav {options}")).len(), 1);
+    }
+}
+
+#[test]
 fn the_other_detector_is_suggested() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
@@ -163,7 +199,10 @@ fn the_other_detector_is_suggested() {
     fault(
         here,
         short,
-        &["no period found", "try --detector difference"],
+        &[
+            "no period found",
+            "try --detector difference; if that finds none either, give --frequency if it is known",
+        ],
     );
     let help = run(here, "identify --help").out;
     let words: Vec<&str> = help.split_whitespace().collect();

@@ -3,6 +3,7 @@
 use antinode::period::DifferenceDetector;
 
 use super::super::{LONGEST_PERIOD, SHORTEST_PERIOD};
+use super::longest;
 use crate::digits::significant;
 
 /// Pairs averaged into one to detect a slow wave: periods of 128 to 6400 samples, and of 32 times as many in the means of means.
@@ -14,6 +15,8 @@ const MIN_DIFFERENCE_POWER: f64 = 1.6;
 /// Consecutive periods that must agree before one is accepted, and the relative difference allowed.
 const MIN_AGREEING: u32 = 4;
 const MAX_APART: f32 = 0.02;
+/// Periods that finding one so often may take; in a shorter recording a slow wave need be found only once.
+const MAX_AGREEING_PERIODS: f64 = 16.0;
 /// Pairs searched, at most: a long recording of noise need not be searched three times to its end.
 pub(super) const MAX_PAIRS: u32 = 1_000_000;
 
@@ -92,10 +95,14 @@ impl InMeans {
         Some(mean)
     }
 
-    /// The wave's period, in the pairs taken, if the means keep most of the samples' power.
-    fn found(&self, power: f64) -> Option<f64> {
-        let period = f64::from(AVERAGED) * self.search.found()?;
-        (self.power.value() > MIN_KEPT_POWER * power).then_some(period)
+    /// The wave's period, in the pairs taken, of which there were so many, if the means keep most of the samples' power.
+    fn found(&self, power: f64, pairs: f64) -> Option<f64> {
+        let averaged = f64::from(AVERAGED);
+        let last = averaged * f64::from(self.search.period);
+        let only = (last > 0.0 && pairs < MAX_AGREEING_PERIODS * last).then_some(last);
+        let period = self.search.found().map(|period| averaged * period);
+        let is_kept = self.power.value() > MIN_KEPT_POWER * power;
+        period.or(only).filter(|_| is_kept)
     }
 }
 
@@ -142,12 +149,14 @@ impl UnsearchedWave {
         self.pairs += 1;
     }
 
-    /// A warning that names the wave seen in samples of this rate, Hz.
-    pub fn warning(&self, rate: f64) -> Option<String> {
+    /// A warning that names the wave seen in so many pairs of this rate, Hz, and what finds it in windows of these periods.
+    pub fn warning(&self, rate: f64, pairs: u64, periods: u16) -> Option<String> {
+        let pairs = pairs as f64;
         let power = self.samples.value();
         let is_fast = self.differences.value() > MIN_DIFFERENCE_POWER * power;
-        let slower = || Some(f64::from(AVERAGED) * self.slower.found(power)?);
-        let slow = self.slow.found(power).or_else(slower);
+        let averaged = f64::from(AVERAGED);
+        let slower = || Some(averaged * self.slower.found(power, pairs / averaged)?);
+        let slow = self.slow.found(power, pairs).or_else(slower);
         let fast = self
             .fast
             .found()
@@ -167,8 +176,14 @@ impl UnsearchedWave {
                  give the pick-offs' own"
             )
         } else {
+            let most = (pairs / longest(1, period)) as u16;
+            let windows = match most {
+                0 | 1 => "; record longer, as a window has at least 2 periods".to_owned(),
+                _ if most < periods => format!(" --periods {most}"),
+                _ => String::new(),
+            };
             format!(
-                "{seen}, outside the search range of 4 to 200: if that is the pick-offs' wave, give --frequency {frequency}"
+                "{seen}, outside the search range of 4 to 200: if that is the pick-offs' wave, give --frequency {frequency}{windows}"
             )
         })
     }
@@ -216,7 +231,7 @@ mod tests {
         // A sample that is missing on one pick-off.
         pairs[999][1] = f32::NAN;
         unsearched.see(&pairs);
-        unsearched.warning(RATE)
+        unsearched.warning(RATE, 150_000, 10)
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use antinode::{Estimate, Flags, Front, Identifier, Settings, Tracker};
 use antinode_sim::{Flaws, Gyro, Wave};
 use host_tests::random::Random;
-use host_tests::{RATE, identify_changed, windows};
+use host_tests::{RATE, identify, identify_changed, windows};
 
 /// A wave of `period` samples.
 fn wave_of(period: f64) -> Wave {
@@ -82,4 +82,13 @@ fn blocks_as_long_as_a_front_has_room_for_are_not_searched_for_anew() {
         .collect();
     assert!(found.len() > 45, "{}", found.len());
     assert!(found.iter().all(|e| e.flags.is_empty()));
+}
+
+#[test]
+fn noise_alone_makes_no_second_search() {
+    for seed in 0..200 {
+        let found = identify(wave_of(18.75), &Flaws::white(0.2), windows(2), 400, seed);
+        let again = found.iter().filter(|e| e.flags.contains(Flags::REACQUIRED));
+        assert_eq!(again.count(), 0, "seed {seed}");
+    }
 }

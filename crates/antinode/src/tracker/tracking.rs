@@ -158,14 +158,17 @@ impl Tracking {
     }
 
     /// Wants a search anew, though not another one after that, if the last was misled by what came before the wave: if the blocks are too
-    /// short or too long for the period found by the first clean window.
+    /// short or too long for the period found by the first clean window, in noise of less than 5 % of a_A.
     #[cold]
     #[inline(never)]
     fn compare(&mut self) {
         let (Some(model), Some(wave)) = (&self.model, &self.before) else {
             return;
         };
-        let is_misled = self.settings.frequency.is_none()
+        // More noise hides harmonics, and misleads a search by itself.
+        let is_quiet = wave.residual < wave.main.value * wave.main.value * (1.0 / 400.0);
+        let is_misled = is_quiet
+            && self.settings.frequency.is_none()
             && (self.settings.cut()).mismatches(model.layout, wave.carrier.period());
         if is_misled {
             self.search();

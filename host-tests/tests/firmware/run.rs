@@ -129,21 +129,35 @@ fn a_board_may_have_another_chip() {
         tools.display(),
         std::env::var("PATH").unwrap_or_default()
     );
-    for (chip, asked) in [
-        (None, "run --chip STM32F405RGTx stm32f405\n"),
-        (
-            Some("STM32F407VGTx"),
-            "run --chip STM32F407VGTx stm32f405\n",
-        ),
-    ] {
-        let output = Command::new(SCRIPT)
-            .arg("stm32f405")
+    let run = |image: &str, chip: Option<&str>| {
+        Command::new(SCRIPT)
+            .arg(image)
             .env("PATH", &path)
             .env_remove("SERIAL")
             .env_remove("CHIP")
             .envs(chip.map(|chip| ("CHIP", chip)))
             .output()
-            .expect("bash is installed");
+            .expect("bash is installed")
+    };
+    for (image, chip, asked) in [
+        ("stm32f405", None, "run --chip STM32F405RGTx stm32f405\n"),
+        (
+            "stm32f405",
+            Some("STM32F407VGTx"),
+            "run --chip STM32F407VGTx stm32f405\n",
+        ),
+        (
+            "stm32g474",
+            Some("STM32G474RETx"),
+            "run --chip STM32G474RETx stm32g474\n",
+        ),
+    ] {
+        let output = run(image, chip);
         assert_eq!(String::from_utf8_lossy(&output.stdout), asked);
     }
+    // Neither is it flashed as another chip, nor run in the emulator.
+    let refused = run("stm32g474", None);
+    let told = String::from_utf8_lossy(&refused.stderr);
+    assert_eq!(refused.status.code(), Some(2), "{told}");
+    assert!(told.contains("set CHIP to the chip of stm32g474"), "{told}");
 }

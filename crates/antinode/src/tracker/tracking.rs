@@ -39,6 +39,11 @@ pub(super) struct Tracking {
     pub(super) angle: Angle,
     /// The angle followed from the last clean window on.
     pub(super) followed: Followed,
+    /// True if the last window showed a wave.
+    pub(super) found: bool,
+    /// True once the first clean window after a search has been compared with its blocks.
+    // Beside `found`, with which it is cleared: elsewhere the one store of both is not aligned.
+    pub(super) is_compared: bool,
     /// True from the loss of a wave, or a change of settings, to the next unbroken window.
     pub(super) lost: bool,
     /// True once a wave was found, until the next `configure`.
@@ -48,10 +53,6 @@ pub(super) struct Tracking {
     pub(super) failures: Failures,
     /// True while a fault lies between the last clean window and the next.
     pub(super) broken: bool,
-    /// True if the last window showed a wave.
-    pub(super) found: bool,
-    /// True once the first clean window after a search has been compared with its blocks.
-    pub(super) is_compared: bool,
 }
 
 impl Tracking {

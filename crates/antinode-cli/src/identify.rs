@@ -183,13 +183,8 @@ fn open(path: &Path, options: &Identify) -> Result<(Recording, f64), Failure> {
             recording.read(&mut buffer)?;
         }
     }
+    let rate = sample_rate(&recording, options)?;
     let name = &recording.name;
-    let absurd = recording.opened.absurd.as_ref();
-    if let Some(absurd) = absurd.filter(|_| options.rate.is_none()) {
-        return Err(Failure::Fault(format!("{name}: {absurd}")));
-    }
-    let own = recording.opened.sample_rate;
-    let rate = sample_rate(name, options.rate, own, options.columns.as_ref())?;
     let rails = options.full_scale;
     let rails = rails.and_then(|rails| recording.rails_warning(rails));
     for warning in rails.iter().chain(&recording.opened.warnings) {
@@ -204,20 +199,17 @@ fn is_pipe(recording: &Recording) -> bool {
 }
 
 /// The rate given by `--rate`, or else the recording's own, if plausible.
-fn sample_rate(
-    name: &str,
-    asked: Option<f64>,
-    own: Option<f64>,
-    columns: Option<&Columns>,
-) -> Result<f64, Failure> {
-    match (asked, own) {
-        (Some(rate), _) => Ok(rate),
-        (None, Some(rate)) if RATES.contains(&rate) => Ok(rate),
-        (None, Some(rate)) => Err(Failure::Fault(format!(
+fn sample_rate(recording: &Recording, options: &Identify) -> Result<f64, Failure> {
+    let (name, opened) = (&recording.name, &recording.opened);
+    match (options.rate, opened.sample_rate, &opened.absurd) {
+        (Some(rate), ..) => Ok(rate),
+        (None, Some(_), Some(absurd)) => Err(Failure::Fault(format!("{name}: {absurd}"))),
+        (None, Some(rate), None) if RATES.contains(&rate) => Ok(rate),
+        (None, Some(rate), None) => Err(Failure::Fault(format!(
             "{name}: the recording states an absurd sample rate of {rate} Hz; give the true one as --rate HZ"
         ))),
-        (None, None) => {
-            let time = match columns.and_then(Columns::without_time) {
+        (None, None, _) => {
+            let time = match options.columns.as_ref().and_then(Columns::without_time) {
                 Some([c, d]) => format!(
                     "; or, if a column of text has the time, name it too, as --columns TIME,{c},{d}"
                 ),

@@ -221,6 +221,16 @@ impl<S: Sample, const N: usize> Front<S, N> {
         matches!(self.stage, Stage::Searching)
     }
 
+    /// Samples in a period by which blocks are gathered, as found or as known: a few per cent off the wave's at most, unless the search was
+    /// misled; `None` while it goes on.
+    pub fn period(&self) -> Option<f32> {
+        match self.stage {
+            Stage::Unset | Stage::Searching => None,
+            Stage::Found(period) => Some(period),
+            Stage::Gathering => Some(self.demodulator.layout().step.period()),
+        }
+    }
+
     /// Index in the stream of the next sample pair.
     pub fn index(&self) -> u64 {
         self.index
@@ -355,12 +365,18 @@ mod tests {
         let mut front = Front::UNSET;
         assert_eq!(blocks(&mut front), (0, None));
         front.search();
+        assert!(front.period().is_none());
         assert!(front.push(pairs[0]).is_none());
         assert!(!front.is_searching());
         assert_eq!(front.index(), 1001);
         front.configure(settings).unwrap();
-        assert!(front.is_searching());
+        assert!(front.is_searching() && front.period().is_none());
         let configured = blocks(&mut front);
+        assert!(
+            front
+                .period()
+                .is_some_and(|period| (period - 18.75).abs() < 0.2)
+        );
         assert!(configured.0 > 20, "{configured:?}");
         assert_eq!(configured, blocks(&mut Front::new(settings).unwrap()));
         assert_eq!(front.index(), 2001);

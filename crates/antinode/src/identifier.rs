@@ -199,6 +199,11 @@ impl<S: Sample, const N: usize, const BLOCKS: usize> Identifier<S, N, BLOCKS> {
         self.front.is_searching()
     }
 
+    /// Samples in a period by which blocks are gathered, as [`Front::period`].
+    pub fn period(&self) -> Option<f32> {
+        self.front.period()
+    }
+
     /// True from the first window that shows a wave to the first that shows none, or to [`search`](Self::search),
     /// [`change`](Self::change) or [`configure`](Self::configure), as [`Tracker::has_wave`].
     pub fn has_wave(&self) -> bool {

@@ -1,6 +1,6 @@
 //! The sampler of the boards, with a converter, a ring and a count of triggers that a test can upset.
 
-use std::cell::{Cell, RefCell};
+use std::cell::RefCell;
 use std::rc::Rc;
 
 use antinode::Packed;
@@ -12,6 +12,8 @@ use proptest::prelude::*;
 
 /// Triggers that pass while a converter is armed.
 const ARMING: u32 = 3;
+/// As a count of triggers.
+const H: u32 = HALF as u32;
 
 /// The state of converter, ring and count. The pair of a trigger is the number of that trigger.
 #[derive(Default)]
@@ -121,7 +123,7 @@ impl PairClock for Chip {
 struct Bench {
     chip: Chip,
     sampler: Sampler<Chip, Chip, Chip>,
-    next: Cell<u32>,
+    next: u32,
 }
 
 impl Bench {
@@ -133,11 +135,10 @@ impl Bench {
             ..State::default()
         })));
         let sampler = Sampler::new(chip.clone(), chip.clone(), chip.clone());
-        let next = Cell::new(triggers.wrapping_add(ARMING + 1));
         Self {
             chip,
             sampler,
-            next,
+            next: triggers.wrapping_add(ARMING + 1),
         }
     }
 
@@ -160,10 +161,10 @@ impl Bench {
             Ready::Lapse(lapse) => self.skip(lapse),
             Ready::Pairs => {
                 self.pass(reading);
-                let begin = self.next.get();
-                self.next.set(begin.wrapping_add(HALF as u32));
+                let begin = self.next;
+                self.next = begin.wrapping_add(H);
                 if self.sampler.is_intact() {
-                    let due = (0..HALF as u32).map(|i| Packed(begin.wrapping_add(i)));
+                    let due = (0..H).map(|i| Packed(begin.wrapping_add(i)));
                     assert!(self.sampler.pairs().iter().copied().eq(due));
                 } else {
                     let lapse = self.sampler.restart(Cause::Overrun);
@@ -174,8 +175,8 @@ impl Bench {
         ready
     }
 
-    fn skip(&self, lapse: Lapse) {
-        self.next.set(self.next.get().wrapping_add(lapse.lost));
+    fn skip(&mut self, lapse: Lapse) {
+        self.next = self.next.wrapping_add(lapse.lost);
     }
 
     /// The cause of the lapse that the interrupt reports, and how many pairs it lost.
@@ -195,8 +196,6 @@ impl Bench {
         })
     }
 }
-
-const H: u32 = HALF as u32;
 
 #[test]
 fn halves_are_handed_out_in_turn_across_the_counts_end() {

@@ -2,14 +2,12 @@
 
 pub(super) mod unsearched_wave;
 
-use antinode::period::DifferenceDetector;
-
 use super::first_pairs::{amplitude_beyond, large_offset};
 use super::options::{Detector, Identify};
 use super::remarks::equal_samples::EqualSamples;
 use super::{Core, LONGEST_PERIOD, SHORTEST_PERIOD};
 use crate::digits::{seconds, significant};
-use unsearched_wave::{MAX_PAIRS, UnsearchedWave};
+use unsearched_wave::UnsearchedWave;
 
 /// Three of the longest periods that are searched: fewer pairs may be too few to find a period.
 const FEW_PAIRS: u64 = 600;
@@ -29,10 +27,6 @@ pub(super) struct Search {
     /// The amplitude of the first samples, if it lies outside the range that can be identified.
     amplitude_beyond: Option<f64>,
     unsearched: UnsearchedWave,
-    /// The core's own search once more, for its period, and the pairs searched.
-    detector: Box<DifferenceDetector<f32>>,
-    searched: u32,
-    period: Option<f32>,
 }
 
 impl Search {
@@ -57,15 +51,9 @@ impl Search {
         self.has_found = !is_searching;
     }
 
-    /// Takes pairs in which a period was searched for.
+    /// Takes pairs in which no period has been found yet.
     pub fn look(&mut self, pairs: &[[f32; 2]]) {
         self.unsearched.see(pairs);
-        for &pair in pairs {
-            if self.period.is_none() && self.searched < MAX_PAIRS {
-                self.period = self.detector.push(pair);
-                self.searched += 1;
-            }
-        }
     }
 
     /// Why a recording that was read to its end gave no row.
@@ -107,7 +95,8 @@ impl Search {
             )
         } else if !core.is_searching() {
             let found = known.map_or("a period was found, but ", |_| "");
-            let wave = self.period.map_or(String::new(), |period| {
+            let searched = core.period().filter(|_| known.is_none());
+            let wave = searched.map_or(String::new(), |period| {
                 let period = f64::from(period);
                 let frequency = significant(rate / period, 3);
                 if fits(period) {

@@ -125,14 +125,13 @@ impl<'a> Windows<'a> {
             if rows.count() == 0 {
                 most = most.min(WATCHED_PAIRS);
             }
-            let was_searching = self.core.is_searching();
             let (taken, estimate) = self.core.push_slice(&pairs[..most]);
             self.search.see(self.core.is_searching());
             self.first.pass(taken);
             let (new, rest) = pairs.split_at(taken);
             pairs = rest;
             recording.look(self.span.take(taken), new);
-            if rows.count() == 0 && was_searching {
+            if rows.count() == 0 && self.core.is_searching() {
                 self.search.look(new);
             }
             self.remarks.see(new);

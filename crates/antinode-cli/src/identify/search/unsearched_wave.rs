@@ -18,7 +18,7 @@ const MAX_APART: f32 = 0.02;
 /// Periods that finding one so often may take; in a shorter recording a slow wave need be found only once.
 const MAX_AGREEING_PERIODS: f64 = 16.0;
 /// Pairs searched, at most: a long recording of noise need not be searched three times to its end.
-pub(super) const MAX_PAIRS: u32 = 1_000_000;
+const MAX_PAIRS: u32 = 1_000_000;
 
 /// A search whose period is accepted once it is found several times in a row.
 #[derive(Debug, Default)]

@@ -213,7 +213,8 @@ impl Delimited {
 
     /// Appends pairs until there are `capacity`, as [`Source::fill`] says.
     pub fn fill(&mut self, pairs: &mut Vec<[f32; 2]>, capacity: usize) -> Result<(), Fault> {
-        pairs.extend(self.ahead.by_ref().take(capacity));
+        let room = capacity.saturating_sub(pairs.len());
+        pairs.extend(self.ahead.by_ref().take(room));
         while pairs.len() < capacity {
             if let Some(fault) = self.fault.take() {
                 return Err(fault);

@@ -154,7 +154,15 @@ impl Recording {
     /// The warnings that can be given only once all is read.
     pub fn late_warnings(&self) -> impl Iterator<Item = String> {
         let text = self.opened.source.text();
-        text.into_iter().flat_map(Delimited::late_warnings)
+        let of_edges = (!self.edges_count()).then(|| self.not_finite.edge_warnings());
+        let of_text = text.into_iter().flat_map(Delimited::late_warnings);
+        of_text.chain(of_edges.into_iter().flatten())
+    }
+
+    /// Whether pairs without values count as faults even at the beginning and the end: among broken lines they may be broken themselves.
+    fn edges_count(&self) -> bool {
+        let text = self.opened.source.text();
+        text.is_some_and(Delimited::is_garbled)
     }
 
     /// The bytes read so far.
@@ -191,18 +199,17 @@ impl Recording {
 
     /// The error for those of the samples looked at so far that are not finite numbers, if any are.
     pub fn not_finite(&self) -> Option<Failure> {
-        let first = self.not_finite.first.as_ref()?;
-        // The first that the source met may be none of those looked at.
-        let written = self.opened.source.text().and_then(Delimited::not_finite);
-        let first = written
-            .filter(|written| written.pair == first.pair)
-            .unwrap_or(first);
+        let (first, count) = self.not_finite.reported(self.edges_count())?;
+        // Text knows the place, unless the first that it met is none of those looked at.
+        let written = self.opened.source.text();
+        let written = written.and_then(|text| text.not_finite(first.pair));
+        let first = written.unwrap_or(&first);
         let told = format!(
             "sample pair {} (from 0), {}{}; \
              rows whose window contains one are flagged or missing, all others are good; check the instrument or program that wrote it",
             first.pair,
             first.description,
-            first_of(self.not_finite.count)
+            first_of(count)
         );
         Some(Fault::at(first.place, told).of(&self.name))
     }

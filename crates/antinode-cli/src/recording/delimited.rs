@@ -274,9 +274,16 @@ impl Delimited {
         self.times().map(warnings).into_iter().flatten().flatten()
     }
 
-    /// The first sample that is not a finite number, with its place.
-    pub fn not_finite(&self) -> Option<&Flaw> {
-        self.rows.not_finite.as_ref()
+    /// The flaw of the sample in this pair that is not a finite number, with its place, if it is the first of all or the first behind pairs
+    /// without values.
+    pub fn not_finite(&self, pair: u64) -> Option<&Flaw> {
+        let mut known = self.rows.not_finite.iter().flatten();
+        known.find(|flaw| flaw.pair == pair)
+    }
+
+    /// Whether a line was met that holds something else than numbers and what stands for missing ones.
+    pub fn is_garbled(&self) -> bool {
+        self.rows.is_garbled()
     }
 }
 

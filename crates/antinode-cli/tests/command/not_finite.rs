@@ -123,6 +123,74 @@ fn the_search_recovers_from_one_among_the_first() {
 }
 
 #[test]
+fn a_record_that_is_not_filled_begins_later_and_ends_earlier() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let codes = WAVE.codes(30_000);
+    let within = 20_000..29_975;
+    // Behind more pairs than are read at once.
+    let lines = codes.iter().enumerate().map(|(k, [c, d])| {
+        let time = k as f64 * 1e-5;
+        if within.contains(&k) {
+            format!("{time:.5},{c},{d}\n")
+        } else {
+            format!("{time:.5},,\n")
+        }
+    });
+    let text: String = lines.collect();
+    fs::write(here.join("a.csv"), format!("time,c,d\n{text}")).unwrap();
+    let pairs = codes.iter().enumerate().map(|(k, pair)| {
+        let value = pair.map(f32::from);
+        if within.contains(&k) {
+            value
+        } else {
+            [f32::NAN; 2]
+        }
+    });
+    let floats = floats(&pairs.collect::<Vec<_>>());
+    let alone: Vec<_> = codes[within.clone()]
+        .iter()
+        .map(|pair| pair.map(f32::from))
+        .collect();
+    fs::write(here.join("alone.wav"), float_wav(&alone)).unwrap();
+    let alone = rows(here, "alone.wav");
+    for (arguments, name, input) in [
+        ("a.csv", "a.csv", Vec::new()),
+        ("- --raw f32 --rate 1e5", "standard input", floats),
+    ] {
+        let run = run_with(here, &format!("identify --output csv {arguments}"), input);
+        assert_eq!(run.code, 0, "{}", run.err);
+        for told in [
+            "the first 20000 sample pairs have no values: the recording begins behind them",
+            "the last 25 sample pairs have no values: the recording ends before them",
+        ] {
+            let warning = format!("warning: {name}: {told}");
+            assert!(run.err.lines().any(|line| line == warning), "{}", run.err);
+        }
+        assert!(!run.err.contains("error"), "{}", run.err);
+        let found = Row::all(&run.out);
+        let (clean, flagged): (Vec<_>, Vec<_>) =
+            found.iter().partition(|row| row.text("flags").is_empty());
+        assert!(
+            flagged.iter().all(|row| row.number("time_s") > 0.299),
+            "{}",
+            run.out
+        );
+        assert!(
+            clean.len() + 2 >= alone.len(),
+            "{} {}",
+            clean.len(),
+            alone.len()
+        );
+        assert!(
+            clean
+                .iter()
+                .all(|row| (0.2..0.29975).contains(&row.number("time_s")))
+        );
+    }
+}
+
+#[test]
 fn a_later_fault_is_reported_too() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();

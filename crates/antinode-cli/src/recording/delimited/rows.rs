@@ -44,8 +44,10 @@ pub(super) struct Rows {
     wrapped: Wrapped,
     /// The times so far, once their rate is known.
     pub axis: Option<TimeAxis>,
-    /// The first sample that is not a finite number.
-    pub not_finite: Option<Flaw>,
+    /// The first sample that is not a finite number, and the first behind a pair with a value.
+    pub not_finite: [Option<Flaw>; 2],
+    /// Whether there was such a pair.
+    has_value: bool,
     /// The lines that are left out.
     pub left_out: LeftOut,
     /// The lines read, and the pairs among them.
@@ -77,7 +79,8 @@ impl Rows {
             origin: Origin::default(),
             wrapped,
             axis: None,
-            not_finite: None,
+            not_finite: [None, None],
+            has_value: false,
             left_out: LeftOut::default(),
             read: 0,
             pairs: 0,
@@ -91,6 +94,11 @@ impl Rows {
     /// True if the text begins with more garbled lines than a glitch leaves.
     pub fn begin_garbled(&self) -> bool {
         self.garbled_before >= MIN_GARBLED_BEGINNING
+    }
+
+    /// True if a line was garbled.
+    pub fn is_garbled(&self) -> bool {
+        self.garbled > 0
     }
 
     /// If most lines are garbled, the first of them: the pairs before it, and its fault. It is given only once.
@@ -169,8 +177,12 @@ impl Rows {
             }
             self.left_out.add(flaw);
             garbled = Some(TIME).filter(|_| !is_odd);
-        } else if let (Some((role, read)), None) = (odd, &self.not_finite) {
-            self.not_finite = Some(self.flaw(role, texts[role], read, broken_line));
+        } else {
+            self.has_value |= pair.iter().any(|value| !value.is_nan());
+            let which = usize::from(self.has_value);
+            if let (Some((role, read)), None) = (odd, &self.not_finite[which]) {
+                self.not_finite[which] = Some(self.flaw(role, texts[role], read, broken_line));
+            }
         }
         let garbled = garbled.map(|role| self.no_number(role, texts[role]));
         self.count(broken.or(garbled));

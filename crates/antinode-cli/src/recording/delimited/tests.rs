@@ -115,8 +115,8 @@ fn faults_in_a_line_are_named_by_line_and_column() {
             "a.csv:2:2: sample pair 1 (from 0), S_D (right): the value is missing; rows whose window contains one ",
         ),
         (
-            "1,2\n,\n",
-            2,
+            "1,2\n,\n3,4\n",
+            3,
             "a.csv:2:1: sample pair 1 (from 0), S_C (left): the value is missing, the first of 2; ",
         ),
         (

@@ -119,6 +119,70 @@ fn a_broken_line_whose_place_is_known_is_a_pair_without_its_samples() {
 }
 
 #[test]
+fn pairs_without_values_at_the_edges_are_no_faults() {
+    let begins = "the first 2 sample pairs have no values: the recording begins behind them";
+    let ends = "the last sample pair has no values: the recording ends before it";
+    for (text, warnings, fault) in [
+        (
+            "time,c,d\n0,,\n1,nan,OVER\n2,1,2\n3,3,4\n4,,\n",
+            vec![begins, ends],
+            None,
+        ),
+        (
+            "time,c,d\n0,,\n1,,\n2,1,2\n3,3,\n4,5,6\n",
+            vec![begins],
+            Some("a.csv:5:3: sample pair 3 (from 0), S_D (right): the value is missing; rows"),
+        ),
+        (
+            "time,c,d\n0,,\n1,,\n2,1,2\n3,,\n4,5,6\n",
+            vec![begins],
+            Some(
+                "a.csv:5:2: sample pair 3 (from 0), S_C (left): the value is missing, the first of 2; rows",
+            ),
+        ),
+        (
+            "time,c,d\n0,1,2\n1,3,4\n2,inf,inf\n",
+            vec![],
+            Some(
+                "a.csv:4:2: sample pair 2 (from 0), S_C (left): the value is inf, not a finite number, the first of 2; rows",
+            ),
+        ),
+        (
+            "time,c,d\n0,,\n1,,\n2,,\n",
+            vec![],
+            Some(
+                "a.csv:2:2: sample pair 0 (from 0), S_C (left): the value is missing, the first of 6; rows",
+            ),
+        ),
+        // Among broken lines these may be broken, too.
+        (
+            "time,c,d\n0,,\n1,,\n2,1,2\n3,x,4\n4,5,6\n",
+            vec![],
+            Some(
+                "a.csv:2:2: sample pair 0 (from 0), S_C (left): the value is missing, the first of 5; rows",
+            ),
+        ),
+    ] {
+        let (_directory, path) = file("a.csv", text.as_bytes());
+        let mut recording = Recording::open(&path, &OpenOptions::default()).unwrap();
+        assert!(
+            drain(&mut recording).1.is_none() && recording.lost().is_none(),
+            "{text}"
+        );
+        assert_eq!(
+            recording.late_warnings().collect::<Vec<_>>(),
+            warnings,
+            "{text}"
+        );
+        let found = recording.not_finite().map(|found| found.to_string());
+        assert_eq!(found.is_some(), fault.is_some(), "{text}: {found:?}");
+        if let (Some(found), Some(fault)) = (found, fault) {
+            assert!(found.contains(fault), "{text}: {found}");
+        }
+    }
+}
+
+#[test]
 fn behind_a_line_that_is_cut_a_rising_signal_is_no_time() {
     let rows = (0..20).map(|k| format!("0.{},0.5\n", 100 + 10 * k + k * k / 10));
     let text = format!("5\n{}", rows.collect::<String>());

@@ -95,7 +95,7 @@ int main(int argc, char **argv)
         return 1;
     }
 
-    if (antinode_version() >> 8 != ANTINODE_VERSION >> 8 || antinode_float_size() != sizeof gyro) {
+    if (antinode_version() >> 8 != ANTINODE_HEADER_VERSION >> 8 || antinode_float_size() != sizeof gyro) {
         fprintf(stderr, "this is not the header of the library that is loaded\n");
         return 1;
     }

@@ -56,7 +56,8 @@
 // Errors: a NULL or misaligned pointer, a state that is not initialised and a value out of range give a status below 0, and nothing is
 // done; but a state whose _init failed is no longer initialised. A pointer that is neither NULL nor misaligned must point to what its
 // type says; a state must be changed by these functions only. Any sample is valid, NaN included. No function then panics, aborts or
-// blocks.
+// blocks. Floating-point exceptions must be masked, as they are in C unless a program unmasks them (Free Pascal and Delphi do): the flags
+// for division by zero, invalid operation and overflow are set in ordinary use, and are no sign of a fault.
 
 
 #ifndef ANTINODE_H
@@ -130,7 +131,7 @@
 #define ANTINODE_DETECTION_MEAN_RETURN 1u
 
 // The version of this header: major x 65536 + minor x 256 + patch.
-#define ANTINODE_VERSION 256u
+#define ANTINODE_HEADER_VERSION 256u
 
 // What a function returns: zero or above if it was done; below zero if it failed and nothing was done.
 enum
@@ -477,7 +478,7 @@ struct antinode_settings_t antinode_settings_default(double sample_rate_hz);
 // What a status means, in English; never NULL. Takes any number. May be called from anywhere.
 const char *antinode_status_string(int32_t status);
 
-// The version of the library that is linked. ANTINODE_VERSION may differ from it in the last eight bits, the patch, which changes no
+// The version of the library that is linked. ANTINODE_HEADER_VERSION may differ from it in the last eight bits, the patch, which changes no
 // type and no function; otherwise header and library do not belong together. Compare the size of a state too, which depends on how the
 // library was built, before its `_init`. May be called from anywhere.
 uint32_t antinode_version(void);

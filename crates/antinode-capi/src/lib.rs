@@ -52,7 +52,7 @@ pub use settings::{
     antinode_settings_default,
 };
 pub use state::Health;
-pub use status::{ANTINODE_VERSION, Status, antinode_status_string, antinode_version};
+pub use status::{ANTINODE_HEADER_VERSION, Status, antinode_status_string, antinode_version};
 
 /// Every `no_std` library must have one; nothing reaches it, so the linker drops it.
 #[cfg(any(target_os = "none", panic = "abort"))]

@@ -157,15 +157,15 @@ pub extern "C" fn antinode_status_string(status: i32) -> *const c_char {
 }
 
 /// The version of this header: major × 65536 + minor × 256 + patch.
-pub const ANTINODE_VERSION: u32 = 0x00_0100_u32;
+pub const ANTINODE_HEADER_VERSION: u32 = 0x00_0100_u32;
 
-/// The version of the library that is linked. ANTINODE_VERSION may differ from it in the last eight bits, the patch, which changes no
+/// The version of the library that is linked. ANTINODE_HEADER_VERSION may differ from it in the last eight bits, the patch, which changes no
 /// type and no function; otherwise header and library do not belong together. Compare the size of a state too, which depends on how the
 /// library was built, before its `_init`. May be called from anywhere.
 #[allow(unsafe_code, reason = "`no_mangle` is an unsafe attribute")]
 #[unsafe(no_mangle)]
 pub extern "C" fn antinode_version() -> u32 {
-    ANTINODE_VERSION
+    ANTINODE_HEADER_VERSION
 }
 
 #[cfg(test)]
@@ -180,7 +180,7 @@ mod tests {
             env!("CARGO_PKG_VERSION_PATCH"),
         ]
         .map(|part| part.parse::<u32>().unwrap());
-        assert_eq!(ANTINODE_VERSION, major << 16 | minor << 8 | patch);
+        assert_eq!(ANTINODE_HEADER_VERSION, major << 16 | minor << 8 | patch);
     }
 
     #[test]

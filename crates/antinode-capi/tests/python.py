@@ -32,7 +32,7 @@ settings = [(name, ctypes.sizeof(kind)) for name, kind in antinode._Settings._fi
 assert settings == fields("antinode_settings_t"), settings
 health = [(name, ctypes.sizeof(kind)) for name, kind in antinode._Health._fields_]
 assert health == fields("antinode_health_t"), health
-assert f"#define ANTINODE_VERSION {antinode.VERSION}u\n" in header
+assert f"#define ANTINODE_HEADER_VERSION {antinode.VERSION}u\n" in header
 for bit, name in enumerate(antinode.FLAGS):
     assert f"#define ANTINODE_FLAG_{name.upper()} {1 << bit}u" in header, name
 

@@ -58,7 +58,7 @@ int main(void)
     antinode_estimate_t estimate;
     size_t at = 0;
 
-    if (antinode_version() >> 8 != ANTINODE_VERSION >> 8 || CALL(size)() != sizeof gyro) {
+    if (antinode_version() >> 8 != ANTINODE_HEADER_VERSION >> 8 || CALL(size)() != sizeof gyro) {
         printf("this is not the header of the library that is linked\n");
         return 1;
     }

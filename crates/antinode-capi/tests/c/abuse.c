@@ -177,7 +177,7 @@ int main(void)
     for (i = -40; i < 10; i++)
         CHECK(strlen(antinode_status_string(i)) > 3);
     CHECK(strcmp(antinode_status_string(INT32_MIN), "unknown status") == 0);
-    CHECK(antinode_version() == ANTINODE_VERSION);
+    CHECK(antinode_version() == ANTINODE_HEADER_VERSION);
     CHECK(antinode_fixed_size() == sizeof(antinode_fixed_t) && antinode_float_size() == sizeof(antinode_float_t));
     bad_states();
     bad_arguments(state);

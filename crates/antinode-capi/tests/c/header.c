@@ -11,5 +11,5 @@ uint32_t beside(const antinode_estimate_t *estimate)
 
 int is_ours(void)
 {
-    return antinode_version() == ANTINODE_VERSION;
+    return antinode_version() == ANTINODE_HEADER_VERSION;
 }

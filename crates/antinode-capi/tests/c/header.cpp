@@ -13,5 +13,5 @@ int main()
     const antinode_settings_t settings = antinode_settings_default(100e3);
     const antinode_status_t status = antinode_float_init(&state, &settings);
     std::printf("%s\n", antinode_status_string(status));
-    return status == ANTINODE_OK && antinode_version() == ANTINODE_VERSION ? 0 : 1;
+    return status == ANTINODE_OK && antinode_version() == ANTINODE_HEADER_VERSION ? 0 : 1;
 }

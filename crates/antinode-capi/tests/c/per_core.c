@@ -226,7 +226,7 @@ static __attribute__((noinline)) int call_the_others(antinode_settings_t setting
     GAUGE(stack_of_others, size = CALL(size)());
     GAUGE(stack_of_reset, status[4] = CALL(reset)(&gyro));
     return status[0] == ANTINODE_OK && status[1] == ANTINODE_OK && status[2] == ANTINODE_OK && status[3] == ANTINODE_OK &&
-           status[4] == ANTINODE_OK && text[0] == 'c' && version == ANTINODE_VERSION && size == sizeof gyro;
+           status[4] == ANTINODE_OK && text[0] == 'c' && version == ANTINODE_HEADER_VERSION && size == sizeof gyro;
 }
 
 /* Runs with settings that take more stack than the usual ones: block offsets, and the other detector. Returns 1 if that gave windows. */

@@ -90,7 +90,7 @@ pub fn run(options: &Calibrate) -> Result<(), Failure> {
     let apart = found.deviations.map(|std| SIGNIFICANT * std);
     if corrected == PickOffs::IDEAL {
         // Deviations that an unexplained residual has widened cover any flaws.
-        let look = if found.residual <= BEYOND_NOISE && found.pick_offs.are_ideal_to(apart) {
+        let look = if !found.is_beyond_noise() && found.pick_offs.are_ideal_to(apart) {
             "the pick-offs look ideal: "
         } else {
             ""
@@ -201,19 +201,27 @@ fn write_report(
             MIN_TURN_BACK.to_degrees()
         )?;
     }
-    if found.decay == Decay::Bent {
+    if found.decay == Decay::Bent && !found.is_alike() {
         writeln!(
             out,
             "the damping changes while the wave rings down, or a gain of both pick-offs does: this is allowed for"
         )?;
     }
+    let why = "the wave is still driven in some rows (identify each ring-down by itself with --from and --to), the damping changes in other \
+               ways than are allowed for, a tone at the wave's frequency is always present (as from a drive's feed-through), a gain or the \
+               wave jumped by too little to be flagged, something else changes with the angle, or a pick-off or the converter is nonlinear";
     if found.residual > BEYOND_NOISE {
         writeln!(
             out,
-            "warning: rows differ from the calibrated wave by {:.1} times their noise: the wave is still driven in some rows (identify each \
-             ring-down by itself with --from and --to), something else changes with the angle, or a pick-off or the converter is nonlinear; \
-             the deviations above include this factor, but the values may be further off",
+            "warning: rows differ from the calibrated wave by {:.1} times their noise: {why}; the deviations above include this factor, but \
+             the values may be further off",
             found.residual
+        )?;
+    } else if found.is_alike() {
+        writeln!(
+            out,
+            "warning: consecutive rows differ from the calibrated wave in the same way, which noise does not do: {why}; the values may be \
+             further off than the deviations above"
         )?;
     }
     Ok(())

@@ -3,6 +3,7 @@
 mod equations;
 mod moments;
 mod pick_offs;
+mod shares;
 mod solve;
 mod undriven;
 mod within_period;

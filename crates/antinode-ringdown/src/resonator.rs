@@ -40,14 +40,8 @@ pub const BREAKS: Flags = Flags::REACQUIRED.with(Flags::PHASE_JUMP).with(Flags::
 const BY_FLAWS: f64 = 0.6;
 /// Rows that may be driven are left out if the residual of the others is that of noise, or below this share of that of all.
 const MAX_RESIDUAL_SHARE: f64 = 0.05;
-/// Correlation of consecutive residuals that an unnoticed overlap of windows may cause, and the deviations that chance may add.
-const MAX_CORRELATION: f64 = 0.03;
+/// Deviations from which on a change is not due to chance.
 const SIGNIFICANT: f64 = 5.0;
-
-/// True if a correlation of consecutive residuals, of which there are `count`, is not due to chance.
-fn is_alike(correlation: f64, count: f64) -> bool {
-    correlation > MAX_CORRELATION + SIGNIFICANT / count.sqrt()
-}
 
 /// What runs of one resonator show.
 #[derive(Debug)]

@@ -21,8 +21,16 @@ pub use run::Run;
 pub const BEYOND_NOISE: f64 = 2.0;
 /// The same from which on a fit does not explain the rows.
 pub(crate) const EXPLAINED: f64 = 1.5;
+/// Correlation of consecutive residuals that an unnoticed overlap of windows may cause, and the deviations that chance may add.
+const MAX_CORRELATION: f64 = 0.03;
+const CHANCE: f64 = 5.0;
 /// Fewest rows of a run, which has four unknowns of its own.
 pub const MIN_ROWS: usize = 12;
+
+/// True if a correlation of consecutive residuals, of which there are `count`, is not due to chance.
+pub(crate) fn is_alike(correlation: f64, count: f64) -> bool {
+    correlation > MAX_CORRELATION + CHANCE / count.sqrt()
+}
 
 /// The runs of [`MIN_ROWS`] rows or more.
 pub(crate) fn long_enough(runs: &[Run]) -> Cow<'_, [Run]> {

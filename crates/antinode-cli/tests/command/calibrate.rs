@@ -341,3 +341,24 @@ fn damping_that_changes_is_told_and_does_not_look_like_flaws() {
         assert_found(&found, [1.012, 130.0, 0.008]);
     }
 }
+
+#[test]
+fn rows_that_differ_alike_are_warned_of_instead_of_allowed_for() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    record(here);
+    let rows = run(here, "identify --output csv one.wav other.wav --periods 20");
+    // Beside 1/τ that rises, a gain of both pick-offs wanders by 1.4 deviations of a row, twice a second.
+    let told = |wander: f64| {
+        let by = |time: f64| 0.005 / 3.0 * time * time + wander * (TAU * 2.0 * time).sin();
+        let found = run_with(here, "calibrate -", damped(&rows.out, by).into());
+        assert_eq!(found.code, 0, "{}", found.err);
+        [
+            "consecutive rows differ from the calibrated wave",
+            "this is allowed for",
+        ]
+        .map(|text| found.err.contains(text))
+    };
+    assert_eq!(told(0.0), [false, true]);
+    assert_eq!(told(6e-4), [true, false]);
+}

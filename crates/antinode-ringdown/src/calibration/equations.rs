@@ -4,7 +4,8 @@ use nalgebra::DVector;
 
 use super::moments::Run;
 use super::pick_offs::PickOffs;
-use super::solve::{Decay, FLAWS, SPLITS, shares, variances};
+use super::shares::{shares, variances};
+use super::solve::{Decay, FLAWS, SPLITS};
 use super::within_period::{WithinPeriod, mean_decay};
 use crate::runs::per_radian;
 

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use num_complex::Complex;
 
 use super::pick_offs::PickOffs;
-use super::solve::{shares, variances};
+use super::shares::{shares, variances};
 use crate::runs::driven::Energy;
 use crate::runs::{self, MIN_ROWS, Row, turn};
 

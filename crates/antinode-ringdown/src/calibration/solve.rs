@@ -10,13 +10,12 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_8};
 
 use nalgebra::DVector;
-use num_complex::Complex;
 
 use super::equations::{Equation, by_integrals, equations};
 use super::moments::Run;
 use super::pick_offs::PickOffs;
 use crate::normal::{Equations, Factors};
-use crate::runs::EXPLAINED;
+use crate::runs::{BEYOND_NOISE, EXPLAINED, is_alike};
 
 /// Unknowns of the pick-offs: ln g, 2πf·Δ and ε.
 pub const FLAWS: usize = 3;
@@ -67,6 +66,9 @@ pub struct Found {
     pub deviations: [f64; 3],
     /// The rms residual over the rows' own deviations: 1 in noise alone.
     pub residual: f64,
+    /// Correlation of consecutive rows' residuals, and the number of these.
+    alike: f64,
+    count: f64,
     /// How ln E falls, and the deviations by which it is bent in a run, at most.
     pub decay: Decay,
     bent: f64,
@@ -74,6 +76,18 @@ pub struct Found {
     pub knows_splits: bool,
     /// Largest turns within a run, rad: backwards, at most 0, and forwards, at least 0.
     pub turned: [f64; 2],
+}
+
+impl Found {
+    /// True if residuals of consecutive rows are correlated beyond chance.
+    pub fn is_alike(&self) -> bool {
+        is_alike(self.alike, self.count)
+    }
+
+    /// True if so much more than noise is left that there should be a warning.
+    pub fn is_beyond_noise(&self) -> bool {
+        self.residual > BEYOND_NOISE || self.is_alike()
+    }
 }
 
 /// Why there is no calibration.
@@ -119,6 +133,7 @@ fn search(runs: &[Run], decay: Decay, start: PickOffs) -> Result<Found, Error> {
     }
     let knows_splits = back.min(forth) >= MIN_TURN_BACK;
     let rows: usize = runs.iter().map(|run| run.moments.len()).sum();
+    let count = (2 * rows) as f64;
     let mut pick_offs = start;
     let mut splits = knows_splits.then_some([0.0; SPLITS]);
     for _ in 0..STEPS {
@@ -143,7 +158,8 @@ fn search(runs: &[Run], decay: Decay, start: PickOffs) -> Result<Found, Error> {
         if (0..FLAWS).all(|i| step[i].abs() < SETTLED) {
             // Residual after the step, per degree of freedom.
             let residual_squares = (normal.squares - normal.equations.right().dot(&step)).max(0.0);
-            let residual = (residual_squares / (2 * rows - unknowns) as f64).sqrt();
+            let residual = (residual_squares / (count - unknowns as f64)).sqrt();
+            let neighbours = neighbours(runs, &pick_offs, decay, splits, &step);
             let variances =
                 variances_of_flaws(runs, &pick_offs, decay, (&factors, unknowns), splits);
             let widening = residual.max(1.0);
@@ -161,6 +177,9 @@ fn search(runs: &[Run], decay: Decay, start: PickOffs) -> Result<Found, Error> {
                     deviation(2),
                 ],
                 residual,
+                // Correlation of residuals far below the rows' own deviations does no harm.
+                alike: neighbours / residual_squares.max(count),
+                count,
                 decay,
                 bent: bends.map(bent).fold(0.0, f64::max),
                 knows_splits,
@@ -214,65 +233,67 @@ struct Normal {
 impl Normal {
     fn of(runs: &[Run], pick_offs: &PickOffs, decay: Decay, splits: Option<[f64; SPLITS]>) -> Self {
         let shared = FLAWS + splits.map_or(0, |splits| splits.len());
-        let mut normal = Self {
-            equations: Equations::new(shared, decay.own(), runs.len()),
-            squares: 0.0,
-            omega: 0.0,
-        };
-        let longest = longest(runs);
-        for (index, run) in runs.iter().enumerate() {
-            for moment in equations(
-                (index, run),
-                pick_offs,
-                decay,
-                shared,
-                splits.unwrap_or_default(),
-                longest,
-            ) {
-                for Equation {
-                    entries,
-                    seen,
-                    weight,
-                } in [moment.energy, moment.quadrature]
-                {
-                    normal.equations.add_equation(index, &entries, seen, weight);
-                    normal.squares += weight * seen * seen;
-                }
+        let mut equations = Equations::new(shared, decay.own(), runs.len());
+        let mut squares = 0.0;
+        for (run, both) in in_turn(runs, pick_offs, decay, splits) {
+            for Equation {
+                entries,
+                seen,
+                weight,
+            } in both
+            {
+                equations.add_equation(run, &entries, seen, weight);
+                squares += weight * seen * seen;
             }
-            normal.omega += run.moments.iter().map(|moment| moment.omega).sum::<f64>();
         }
-        normal.omega /= runs.iter().map(|run| run.moments.len()).sum::<usize>() as f64;
-        normal
+        let omegas = runs.iter().flat_map(|run| &run.moments);
+        let (count, sum) = omegas.fold((0.0, 0.0), |(count, sum), moment| {
+            (count + 1.0, sum + moment.omega)
+        });
+        Self {
+            equations,
+            squares,
+            omega: sum / count,
+        }
     }
 }
 
-/// E, and R/E, S/E and Q/E, of the phasors of ideal pick-offs; Q is −2 a_A a_B here.
-pub fn shares([c, d]: [Complex<f64>; 2]) -> [f64; 4] {
-    let [of_c, of_d] = [c.norm_sqr(), d.norm_sqr()];
-    let energy = of_c + of_d;
-    let product = c.conj() * d;
-    [
-        energy,
-        (of_c - of_d) / energy,
-        2.0 * product.re / energy,
-        2.0 * product.im / energy,
-    ]
+/// The equations of ln E and of Q/E of all moments, about a calibration, each with the index of its run.
+fn in_turn<'a>(
+    runs: &'a [Run],
+    pick_offs: &'a PickOffs,
+    decay: Decay,
+    splits: Option<[f64; SPLITS]>,
+) -> impl Iterator<Item = (usize, [Equation; 2])> + 'a {
+    let shared = FLAWS + splits.map_or(0, |splits| splits.len());
+    let (splits, longest) = (splits.unwrap_or_default(), longest(runs));
+    runs.iter().enumerate().flat_map(move |(index, run)| {
+        let moments = equations((index, run), pick_offs, decay, shared, splits, longest);
+        moments.map(move |moment| (index, [moment.energy, moment.quadrature]))
+    })
 }
 
-/// The variances of ln E and Q/E of the phasors of ideal pick-offs, for noise of variance 1 on the raw phasors of pick-offs with these
-/// [gains](PickOffs::noise_gains).
-pub fn variances([c, d]: [Complex<f64>; 2], [d_on_d, c_on_d]: [f64; 2]) -> [f64; 2] {
-    let [energy, _, _, q] = shares([c, d]);
-    // Coefficients of the noise of each raw phasor, of which only the real parts of the products count.
-    let [c, d] = [c.conj(), d.conj()];
-    let by_energy = [c + d * c_on_d, d * d_on_d];
-    let by_quadrature = [(d - c * c_on_d) * Complex::i(), -c * d_on_d * Complex::i()];
-    let mut variances = [0.0; 2];
-    for (energy, quadrature) in by_energy.into_iter().zip(by_quadrature) {
-        variances[0] += energy.norm_sqr();
-        variances[1] += (quadrature - energy * q).norm_sqr();
+/// Sum of the products of consecutive moments' residuals, in deviations, with these values of the unknowns.
+fn neighbours(
+    runs: &[Run],
+    pick_offs: &PickOffs,
+    decay: Decay,
+    splits: Option<[f64; SPLITS]>,
+    unknowns: &DVector<f64>,
+) -> f64 {
+    let (mut sum, mut last, mut before) = (0.0, 0, [0.0; 2]);
+    for (run, both) in in_turn(runs, pick_offs, decay, splits) {
+        if std::mem::replace(&mut last, run) != run {
+            before = [0.0; 2];
+        }
+        for (equation, before) in both.iter().zip(&mut before) {
+            let each = equation.entries.iter();
+            let explained: f64 = each.map(|&(at, by)| by * unknowns[at]).sum();
+            let rest = (equation.seen - explained) * equation.weight.sqrt();
+            sum += rest * std::mem::replace(before, rest);
+        }
     }
-    variances.map(|sum| 4.0 * sum / (energy * energy))
+    sum
 }
 
 #[cfg(test)]

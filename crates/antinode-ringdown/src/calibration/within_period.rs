@@ -3,7 +3,8 @@
 use num_complex::Complex;
 
 use super::moments::Moment;
-use super::solve::{SPLITS, shares};
+use super::shares::shares;
+use super::solve::SPLITS;
 use crate::runs::{per_radian, turn};
 
 /// Mean decay rate of the amplitude in so many `seconds`, 1/s, by the energy of the first and the last of these phasors.

@@ -4,10 +4,9 @@ use nalgebra::DVector;
 
 use super::curve;
 use super::fit;
-use super::is_alike;
 use super::model::{Damping, Kind, Model};
 use crate::normal::Factors;
-use crate::runs::{BEYOND_NOISE, EXPLAINED};
+use crate::runs::{BEYOND_NOISE, EXPLAINED, is_alike};
 
 /// Deviations below which the turning of patterns by amplitudes is taken to be 0: a higher limit would miss more than it spares.
 const NONLINEAR_USED: f64 = 2.0;

@@ -5,11 +5,10 @@ use std::f64::consts::TAU;
 use super::by_energy::{ByEnergy, Point, by_energy, without_mean};
 use super::drift::drift;
 use super::found::{Found, Measured};
-use super::is_alike;
 use super::model::Model;
 use super::stretches::{RowFrequency, stretches};
 use crate::line::weighted_mean;
-use crate::runs::{Row, Run};
+use crate::runs::{Row, Run, is_alike};
 
 /// Stretches per run to aim at, if it has that many rows.
 const STRETCHES: usize = 100;

@@ -33,14 +33,18 @@ const NAMES: [&str; 4] = [
     "frequency",
 ];
 
-/// The quantities of a row that are compared, each with its deviation.
+/// The quantities of a row that are compared, each with its deviation: the amplitudes as ln a_A and a_B/a_A, which a decay does not bend.
 fn compared(e: &Estimate) -> [[f64; 2]; NAMES.len()] {
+    let main = f64::from(e.main_amplitude);
+    let [quadrature, of_main, of_quadrature] = [
+        e.quadrature_amplitude,
+        e.main_amplitude_std,
+        e.quadrature_amplitude_std,
+    ]
+    .map(|value| f64::from(value) / main);
     [
-        [e.main_amplitude.into(), e.main_amplitude_std.into()],
-        [
-            e.quadrature_amplitude.into(),
-            e.quadrature_amplitude_std.into(),
-        ],
+        [main.ln(), of_main],
+        [quadrature, of_quadrature.hypot(quadrature * of_main)],
         [e.angle, e.angle_std.into()],
         [e.frequency, e.frequency_std.into()],
     ]
@@ -298,6 +302,27 @@ pub(super) mod tests {
             }
         };
         assert_eq!(warning(1.0, steps), None);
+    }
+
+    #[test]
+    fn fast_decays_are_no_scatter() {
+        // Ring-downs of 20 windows, in each of which the amplitude falls by a fifth.
+        for quadrature in [0.03, 0.9] {
+            let decays = |index: u64, row: &mut Estimate| {
+                let left = (-0.2 * (index % 20) as f32).exp();
+                row.main_amplitude += 0.6 * (left - 1.0);
+                row.quadrature_amplitude += 0.6 * quadrature * left - 0.02;
+                if index.is_multiple_of(20) {
+                    row.flags = Flags::REACQUIRED;
+                }
+            };
+            assert_eq!(warning(1.0, decays), None);
+            let more = warning(1.6, decays).unwrap();
+            assert!(
+                more.contains("main amplitude 1.") && more.contains("quadrature amplitude 1."),
+                "{more}"
+            );
+        }
     }
 
     #[test]

@@ -47,6 +47,9 @@ pub(super) struct Tones {
     waves: u64,
     frequency: f64,
     angle_rate: f64,
+    /// The least and the greatest frequency of rows about a spectrum, Hz, and the frequencies of the last two rows.
+    range: Option<[f64; 2]>,
+    last: [f64; 2],
     /// Rows with one of these flags alone.
     misfits: u64,
     clipped: u64,
@@ -80,6 +83,7 @@ impl Tones {
         self.waves += 1;
         self.frequency += (row.frequency - self.frequency) / self.waves as f64;
         self.angle_rate = row.angle_rate.into();
+        let is_first = self.spectra() < FIRST;
         self.misfits += u64::from(row.flags == Flags::MISFIT);
         self.clipped += u64::from(row.flags == Flags::CLIPPED);
         if row.flags.contains(Flags::MISFIT)
@@ -88,7 +92,23 @@ impl Tones {
         {
             self.add(from);
             self.recent.clear();
+            self.widen(row.frequency);
+        } else if is_first {
+            self.widen(row.frequency);
         }
+        self.last = [self.last[1], row.frequency];
+    }
+
+    /// Widens the range of the wave's frequency by that of a row, unless it is neither like the row before nor the one before that.
+    fn widen(&mut self, frequency: f64) {
+        let [one, other] = self.last;
+        let usual = if self.waves < 3 {
+            self.frequency
+        } else {
+            frequency.clamp(one.min(other), one.max(other))
+        };
+        let [least, greatest] = self.range.unwrap_or([usual; 2]);
+        self.range = Some([least.min(usual), greatest.max(usual)]);
     }
 
     /// How many spectra there are.
@@ -135,14 +155,18 @@ impl Tones {
             return Vec::new();
         };
         let step = rate / spectrum.length() as f64;
-        let own = OWN_LINES + self.angle_rate.abs() * FRAC_1_PI / step;
-        let place = self.frequency / step;
+        let [least, greatest] = self.range.unwrap_or([self.frequency; 2]);
+        let drift = 0.5 * (greatest - least);
+        let own = OWN_LINES + (self.angle_rate.abs() * FRAC_1_PI + drift) / step;
+        let place = (least + drift) / step;
         let mut lines = spectrum.stand_out(place, own, MIN_SHARE);
         lines.truncate(MAX_NAMED);
         let tone = |line: Line| {
             let hertz = line.place * step;
-            let is_this =
-                |&order: &u32| (self.harmonic(order, rate) - hertz).abs() < SAME_LINES * step;
+            let is_this = |&order: &u32| {
+                let apart = (self.harmonic(order, rate) - hertz).abs();
+                apart < SAME_LINES * step + f64::from(order) * drift
+            };
             Tone {
                 hertz,
                 step,

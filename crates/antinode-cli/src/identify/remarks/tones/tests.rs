@@ -80,6 +80,43 @@ fn the_lines_of_a_turning_pattern_are_its_own() {
 }
 
 #[test]
+fn the_lines_of_a_wave_that_drifts_are_its_own() {
+    let settings = Settings::new(RATE);
+    // By 1 Hz a window of 200 pairs, as much as 48 lines in the time of a spectrum, and one row in 50 is far off.
+    let told = |tones: &[(f64, f64)], drift: f64| {
+        let mut seen = Tones::default();
+        let mut deviates = Deviates::new(3);
+        let mut turns = 0.0;
+        for index in 0..500u64 {
+            let frequency = 5332.0 + drift * index as f64;
+            let pairs = (200 * index..200 * (index + 1)).map(|k| {
+                turns += frequency / RATE;
+                let of = |(hertz, amplitude): &(f64, f64)| {
+                    amplitude * (TAU * hertz / RATE * k as f64).cos()
+                };
+                let wave = 0.6 * (TAU * turns).cos() + 0.02 * (2.0 * TAU * turns).cos();
+                [
+                    (wave + tones.iter().map(of).sum::<f64>()) as f32,
+                    (1e-3 * deviates.draw()) as f32,
+                ]
+            });
+            seen.see(&pairs.collect::<Vec<_>>());
+            let far = if index % 50 == 49 { 3000.0 } else { 0.0 };
+            seen.row(&Estimate {
+                frequency: frequency + far,
+                flags: Flags::MISFIT,
+                ..row(index, 1.0, &mut deviates)
+            });
+        }
+        seen.cause(&settings)
+    };
+    assert_eq!(told(&[], 1.0), None);
+    assert_eq!(told(&[], -1.0), None);
+    let told = told(&[(7000.0, 0.05)], 1.0).unwrap();
+    assert!(told.contains("there is a tone of 7000.0 Hz"), "{told}");
+}
+
+#[test]
 fn the_remedy_is_what_is_not_given_yet() {
     let near = (5332.0 + 320.0, 0.01);
     let given = |periods, hum, coloured| Settings {

@@ -5,8 +5,8 @@ use crate::digits::decimals_of_times;
 use crate::failure::Failure;
 use crate::recording::Recording;
 
-/// Rounding of a time, in samples, that is allowed for.
-const ROUNDING: f64 = 1e-3;
+/// Rounding of a time, in samples, that is allowed for at least, and at most: times since 1970 have steps of 2.4·10⁻⁷ s.
+const ROUNDING: [f64; 2] = [1e-3, 0.5];
 
 /// Resolution of a time, in periods, below which it still gives the phase: 10⁻³ rad.
 const MAX_TIME_STEP: f64 = 1.6e-4;
@@ -43,7 +43,11 @@ impl Span {
     /// The span that is asked for, of a recording of this sample rate.
     pub fn new(options: &Identify, recording: &Recording, rate: f64) -> Self {
         let start = recording.opened.start;
-        let number = |time: f64| ((time - start) * rate - ROUNDING).ceil().max(0.0) as u64;
+        let [least, most] = ROUNDING;
+        let number = |time: f64| {
+            let rounding = (f64::EPSILON * time.abs() * rate).clamp(least, most);
+            ((time - start) * rate - rounding).ceil().max(0.0) as u64
+        };
         Self {
             asked: [options.from, options.to],
             rate,

@@ -102,10 +102,17 @@ impl Delimited {
     /// Reads as many lines as it takes to find the sample rate, and checks their times.
     fn read_ahead(&mut self, head: u64) -> Result<(), Fault> {
         self.rows.find_counter(FEW_LINES as usize)?;
-        let times = match self.rows.header.places[TIME] {
-            Some(_) if self.rows.axis.is_none() => self.rows.look_ahead(head as usize)?,
-            _ => Vec::new(),
-        };
+        let (mut head, mut times) = (head, Vec::new());
+        if self.rows.header.places[TIME].is_some() && self.rows.axis.is_none() {
+            times = self.rows.look_ahead(head as usize)?;
+            // Few lines show no rate if times are rounded to several samples.
+            let is_coarse =
+                self.rows.axis.is_none() && standstill(&times, self.rows.printed).is_some();
+            if is_coarse && head < HEAD_LINES {
+                head = HEAD_LINES;
+                times = self.rows.look_ahead(head as usize)?;
+            }
+        }
         let standing = if are_paired(&times) {
             Some((0, PAIRED.to_owned()))
         } else if self.rows.axis.is_none() {
@@ -215,6 +222,9 @@ impl Delimited {
     pub fn fill(&mut self, pairs: &mut Vec<[f32; 2]>, capacity: usize) -> Result<(), Fault> {
         let room = capacity.saturating_sub(pairs.len());
         pairs.extend(self.ahead.by_ref().take(room));
+        if self.is_held_up(pairs) {
+            return Ok(());
+        }
         while pairs.len() < capacity {
             if let Some(fault) = self.fault.take() {
                 return Err(fault);
@@ -232,12 +242,16 @@ impl Delimited {
                 Row::LeftOut => self.left_out += 1,
                 Row::Pair(_, pair) => pairs.push(pair),
             }
-            // A live stream must not be held up by its next line.
-            if self.live && self.rows.lines.is_drained() && !pairs.is_empty() {
+            if self.is_held_up(pairs) {
                 break;
             }
         }
         Ok(())
+    }
+
+    /// Whether these pairs of a live stream would be held up by its next line.
+    fn is_held_up(&self, pairs: &[[f32; 2]]) -> bool {
+        self.live && !pairs.is_empty() && self.rows.lines.is_drained()
     }
 
     /// Pairs that are read ahead and not yet delivered.

@@ -191,6 +191,25 @@ fn a_record_that_is_not_filled_begins_later_and_ends_earlier() {
 }
 
 #[test]
+fn a_column_without_numbers_at_first_is_no_time() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let lines = WAVE.codes(5000);
+    let good: String = lines.iter().map(|[c, d]| format!("{c},{d}\n")).collect();
+    for missing in ["nan,nan\n", "inf,inf\n", "nan,0.1\n"] {
+        fs::write(here.join("a.csv"), missing.repeat(64) + &good).unwrap();
+        let run = run_with(here, "identify --output csv --rate 1e5 a.csv", Vec::new());
+        assert_eq!(
+            run.code,
+            i32::from(missing != "nan,nan\n"),
+            "{missing}: {}",
+            run.err
+        );
+        assert!(Row::all(&run.out).len() > 20, "{missing}: {}", run.err);
+    }
+}
+
+#[test]
 fn a_later_fault_is_reported_too() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();

@@ -214,3 +214,28 @@ fn the_command_does_not_wait_for_a_pipe_beyond_the_span() {
     assert!(child.wait().unwrap().success());
     drop(input);
 }
+
+#[test]
+fn a_span_begins_with_the_line_that_is_named_by_its_time_since_1970() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let codes = WAVE.codes(PAIRS);
+    let start = 1_764_337_501.0;
+    fs::write(here.join("whole.csv"), timed(&codes, start)).unwrap();
+    // Doubles are 0.024 samples apart there.
+    for first in [1001, 4004, 5003, 7777] {
+        fs::write(here.join("part.csv"), timed(&codes[first..], 0.0)).unwrap();
+        let part = rows(here, "part.csv");
+        let from = format!("{:.5}", start + first as f64 / RATE);
+        let run = run(
+            here,
+            &format!("identify --output csv whole.csv --from {from}"),
+        );
+        assert_eq!(run.code, 0, "{}", run.err);
+        let found = Row::all(&run.out);
+        assert_eq!(found.len(), part.len(), "{from}");
+        for (found, part) in found.iter().zip(&part) {
+            assert_eq!(found.unnamed()[1..], part.unnamed()[1..], "{from}");
+        }
+    }
+}

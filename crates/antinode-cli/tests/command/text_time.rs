@@ -344,3 +344,32 @@ fn a_halved_rate_is_reported_as_lost_samples() {
     let last = Row::all(&run.out).last().unwrap().number("time_s");
     assert!((0.027..0.03).contains(&last), "{last}");
 }
+
+#[test]
+fn times_rounded_to_several_samples_are_read_from_a_pipe_of_a_known_rate_too() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    // Ten samples have the same time.
+    let codes = WAVE.codes(70_000);
+    let lines = codes
+        .iter()
+        .enumerate()
+        .map(|(k, [c, d])| format!("{:.4},{c},{d}\n", k as f64 * 1e-5));
+    let text = format!("time,c,d\n{}", lines.collect::<String>());
+    fs::write(here.join("a.csv"), &text).unwrap();
+    let expected = run(here, "identify --output csv --rate 1e5 a.csv");
+    let found = run_with(here, "identify --output csv --rate 1e5 -", text.into());
+    assert_eq!(
+        (expected.code, found.code),
+        (0, 0),
+        "{} {}",
+        expected.err,
+        found.err
+    );
+    let (expected, found) = (Row::all(&expected.out), Row::all(&found.out));
+    assert!(expected.len() > 360);
+    assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.iter().zip(&expected) {
+        assert_eq!(found.text("frequency_hz"), expected.text("frequency_hz"));
+    }
+}

@@ -306,13 +306,13 @@ pub(super) mod tests {
 
     #[test]
     fn fast_decays_are_no_scatter() {
-        // Ring-downs of 20 windows, in each of which the amplitude falls by a fifth.
+        // Ring-downs of 10 windows, in each of which the amplitude falls by a quarter.
         for quadrature in [0.03, 0.9] {
             let decays = |index: u64, row: &mut Estimate| {
-                let left = (-0.2 * (index % 20) as f32).exp();
+                let left = (-0.3 * (index % 10) as f32).exp();
                 row.main_amplitude += 0.6 * (left - 1.0);
                 row.quadrature_amplitude += 0.6 * quadrature * left - 0.02;
-                if index.is_multiple_of(20) {
+                if index.is_multiple_of(10) {
                     row.flags = Flags::REACQUIRED;
                 }
             };

@@ -12,7 +12,10 @@ pub(super) const MAX_STEP_RATIO_ALONE: f64 = 1.0001;
 
 /// Whether a column goes up by the same step, within `max_ratio`, from each of these lines to the next.
 pub(super) fn is_clock(rows: &[Line], column: usize, separator: u8, max_ratio: f64) -> bool {
-    let time = |line: &Line| number::<f64>(line.fields.get(column)?, separator);
+    let time = |line: &Line| {
+        let time = number::<f64>(line.fields.get(column)?, separator)?;
+        time.is_finite().then_some(time)
+    };
     let times: Option<Vec<f64>> = rows.iter().map(time).collect();
     times.is_some_and(|times| are_even(&times, max_ratio))
 }

@@ -1,5 +1,7 @@
 //! Text recordings with a time column: the sample rate it gives, and the errors if it gives none.
 
+use std::io::{self, Read};
+
 use super::super::super::tests::file;
 use super::super::super::{OpenOptions, Recording};
 use super::{bad, check};
@@ -252,4 +254,35 @@ fn a_gap_far_behind_the_first_lines_is_found() {
     }
     let gap = recording.next_gap().unwrap();
     assert_eq!((gap.before, gap.lost), (140_000, 1));
+}
+
+/// A live stream, of which no more must be asked for than has come.
+struct Live(io::Cursor<String>);
+
+impl Read for Live {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        let read = self.0.read(bytes)?;
+        assert!(read > 0, "held up");
+        Ok(read)
+    }
+}
+
+#[test]
+fn pairs_that_were_read_ahead_are_not_held_up_by_the_next_line() {
+    let options = OpenOptions {
+        rate: Some(1e5),
+        ..OpenOptions::default()
+    };
+    for lines in 1024..1030 {
+        let text: String = (0..lines)
+            .map(|k| format!("{:.5},{},1\n", f64::from(k) * 1e-5, k % 7))
+            .collect();
+        let stream = Box::new(Live(io::Cursor::new(text)));
+        let mut opened =
+            super::super::open(stream, &options, true).unwrap_or_else(|_| panic!("{lines}"));
+        let mut pairs = Vec::new();
+        while pairs.len() < lines as usize {
+            assert!(opened.source.fill(&mut pairs, 1 << 14).is_ok());
+        }
+    }
 }

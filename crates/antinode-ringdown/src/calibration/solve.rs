@@ -281,11 +281,8 @@ fn neighbours(
     splits: Option<[f64; SPLITS]>,
     unknowns: &DVector<f64>,
 ) -> f64 {
-    let (mut sum, mut last, mut before) = (0.0, 0, [0.0; 2]);
-    for (run, both) in in_turn(runs, pick_offs, decay, splits) {
-        if std::mem::replace(&mut last, run) != run {
-            before = [0.0; 2];
-        }
+    let (mut sum, mut before) = (0.0, [0.0; 2]);
+    for (_, both) in in_turn(runs, pick_offs, decay, splits) {
         for (equation, before) in both.iter().zip(&mut before) {
             let each = equation.entries.iter();
             let explained: f64 = each.map(|&(at, by)| by * unknowns[at]).sum();

@@ -349,7 +349,7 @@ fn residuals_that_are_alike_from_row_to_row_are_seen() {
         ([0.0, 6.0], 1.0, true),
         ([0.05, -0.05], 1.0, false),
         // What is far below the rows' own deviations does no harm.
-        ([0.05, 0.05], 0.02, false),
+        ([0.3, 0.3], 0.02, false),
     ] {
         let found = seen(gains, scatter);
         assert_eq!(found.is_alike(), is_alike, "{gains:?}: {found:?}");

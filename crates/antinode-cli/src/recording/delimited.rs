@@ -100,15 +100,14 @@ pub(super) struct Delimited {
 
 impl Delimited {
     /// Reads as many lines as it takes to find the sample rate, and checks their times.
-    fn read_ahead(&mut self, head: u64) -> Result<(), Fault> {
+    fn read_ahead(&mut self, mut head: u64) -> Result<(), Fault> {
         self.rows.find_counter(FEW_LINES as usize)?;
-        let (mut head, mut times) = (head, Vec::new());
+        let mut times = Vec::new();
         if self.rows.header.places[TIME].is_some() && self.rows.axis.is_none() {
             times = self.rows.look_ahead(head as usize)?;
-            // Few lines show no rate if times are rounded to several samples.
-            let is_coarse =
-                self.rows.axis.is_none() && standstill(&times, self.rows.printed).is_some();
-            if is_coarse && head < HEAD_LINES {
+            // Few lines show no rate if times are rounded to several samples; of others that show none, more lines show none either.
+            let are_coarse = self.rows.axis.is_none() && times.is_sorted() && !are_paired(&times);
+            if are_coarse && head < HEAD_LINES {
                 head = HEAD_LINES;
                 times = self.rows.look_ahead(head as usize)?;
             }

@@ -83,7 +83,7 @@ impl Tones {
         self.waves += 1;
         self.frequency += (row.frequency - self.frequency) / self.waves as f64;
         self.angle_rate = row.angle_rate.into();
-        let is_first = self.spectra() < FIRST;
+        let mut is_about_spectrum = self.spectra() < FIRST;
         self.misfits += u64::from(row.flags == Flags::MISFIT);
         self.clipped += u64::from(row.flags == Flags::CLIPPED);
         if row.flags.contains(Flags::MISFIT)
@@ -92,8 +92,9 @@ impl Tones {
         {
             self.add(from);
             self.recent.clear();
-            self.widen(row.frequency);
-        } else if is_first {
+            is_about_spectrum = true;
+        }
+        if is_about_spectrum {
             self.widen(row.frequency);
         }
         self.last = [self.last[1], row.frequency];

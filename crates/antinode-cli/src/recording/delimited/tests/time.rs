@@ -286,3 +286,23 @@ fn pairs_that_were_read_ahead_are_not_held_up_by_the_next_line() {
         }
     }
 }
+
+#[test]
+fn a_live_stream_of_times_that_show_no_rate_is_refused_at_once() {
+    let options = OpenOptions {
+        rate: Some(1e5),
+        ..OpenOptions::default()
+    };
+    // Each time stands in two lines, and time runs backwards.
+    for time in [|k: i32| k / 2, |k: i32| 5000 - k] {
+        let lines = (0..1100).map(|k| format!("{}e-5,{},1\n", time(k), k % 7));
+        let text = format!("time,c,d\n{}", lines.collect::<String>());
+        let stream = Box::new(Live(io::Cursor::new(text)));
+        let mut pairs = Vec::new();
+        let read = super::super::open(stream, &options, true).and_then(|mut opened| {
+            opened.source.fill(&mut pairs, 1 << 14)?;
+            opened.source.fill(&mut pairs, 1 << 14)
+        });
+        assert!(read.is_err() && pairs.len() < 2, "{}", pairs.len());
+    }
+}

@@ -85,7 +85,8 @@ impl Header {
             is_of_rows: is_of_rows(first, next),
         };
         let places = line.places(chosen);
-        let places = places.map_err(|fault| Fault::line(lines.number() + 1, fault))?;
+        let number = lines.number() + start.silent_lines as u64 + 1;
+        let places = places.map_err(|fault| Fault::line(number, fault))?;
         let of_names = counted.and_then(|counted| counted.sequence);
         let sequence = start.sequence.or(of_names);
         let mut header = Self {

@@ -70,8 +70,9 @@ impl Lines {
         for number in [unit, units, start.cut.as_mut()].into_iter().flatten() {
             *number += line as usize;
         }
-        let end = begun.iter().position(|&byte| byte == b'\n');
-        let (first, next) = begun.split_at(end.map_or(begun.len(), |end| end + 1));
+        let shown = &begun[start.silent_bytes..];
+        let end = shown.iter().position(|&byte| byte == b'\n');
+        let (first, next) = shown.split_at(end.map_or(shown.len(), |end| end + 1));
         let beginning = Beginning {
             first: first.to_vec(),
             next: next.to_vec(),

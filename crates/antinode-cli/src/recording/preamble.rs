@@ -7,6 +7,7 @@ mod clock;
 mod cut;
 mod names;
 mod settings;
+mod silent;
 mod titles;
 
 pub(super) use clock::{MAX_STEP_RATIO, are_even};
@@ -40,6 +41,9 @@ pub(super) struct Start {
     /// The lines skipped, settings or one that lacks its beginning, and their bytes.
     pub lines: usize,
     pub bytes: usize,
+    /// The sample pairs without values that the rest begins with, in lines of any kind, and their bytes.
+    pub silent_lines: usize,
+    pub silent_bytes: usize,
     /// The line that lacks its beginning.
     pub cut: Option<usize>,
     /// The columns that hold numbers, from 0; none if that is not known.
@@ -58,6 +62,21 @@ pub(super) struct Start {
     pub sequence: Option<Sequence>,
 }
 
+impl Start {
+    /// With the lines without values right above the first of the samples.
+    fn with_silent(mut self, silent: &[Line], below: &Line, separator: u8) -> Self {
+        if let Some(first) = silent.first()
+            && self.bytes == below.start
+            && has_samples(below, &self.numbers, separator)
+        {
+            (self.lines, self.bytes) = (first.before, first.start);
+            self.silent_lines = below.before - first.before;
+            self.silent_bytes = below.start - first.start;
+        }
+        self
+    }
+}
+
 /// A line that is neither blank nor a comment.
 struct Line<'a> {
     /// The number of lines before it.
@@ -71,21 +90,24 @@ struct Line<'a> {
 /// Finds where the names or samples begin; none if more lines are needed to tell. `is_all`: there are no more lines.
 pub(super) fn find(text: &[u8], is_all: bool) -> Option<Start> {
     let separator = last_separator(text);
-    let lines = lines(text, separator);
+    let all = lines(text, separator);
+    let (silent, lines) = all.split_at(silent::count(&all, separator));
     // A first line that begins with a sample has no settings above it.
     let begins_with_word = lines.first().is_some_and(|line| {
         let lead = lead(line);
         !lead.is_some_and(|field| is_sample(field, separator))
     });
-    let may_go_on = begins_with_word && !is_all && lines.len() < MAX_LINES && is_short(text);
+    let may_begin_below = begins_with_word || !silent.is_empty();
+    let may_go_on = may_begin_below && !is_all && lines.len() < MAX_LINES && is_short(text);
     // A column in which a line is garbled is one more, once the lines below that line are seen.
     let is_whole =
-        |numbers: &Vec<usize>| steady(&lines, separator, MAX_GARBLED).as_ref() == Some(numbers);
-    let numbers = steady(&lines, separator, 0).filter(|all| !may_go_on || is_whole(all));
+        |numbers: &Vec<usize>| steady(lines, separator, MAX_GARBLED).as_ref() == Some(numbers);
+    let numbers = steady(lines, separator, 0).filter(|all| !may_go_on || is_whole(all));
     let found = numbers.map(|numbers| {
-        cut::start(&lines, &numbers, separator)
-            .or_else(|| start(&lines, &numbers, separator, 0))
-            .or_else(|| start(&lines, &numbers, separator, MAX_GARBLED))
+        cut::start(lines, &numbers, separator)
+            .or_else(|| start(lines, &numbers, separator, 0))
+            .or_else(|| start(lines, &numbers, separator, MAX_GARBLED))
+            .map(|start| start.with_silent(silent, &lines[0], separator))
     });
     match found {
         None if may_go_on => None,
@@ -231,8 +253,8 @@ fn start(lines: &[Line], numbers: &[usize], separator: u8, garbled: usize) -> Op
             .iter()
             .find_map(|line| settings::units_over(line, numbers)),
         sequence: Sequence::of_settings(&fields, separator),
-        cut: None,
         numbers: numbers.to_vec(),
+        ..Start::default()
     })
 }
 

@@ -132,6 +132,50 @@ fn more_lines_are_asked_for_until_samples_are_seen() {
     );
 }
 
+/// The lines skipped above such first lines and rows, and how many of those left are without values.
+fn silent(above: &str, row: impl Fn(usize) -> String) -> Option<(usize, usize)> {
+    let rows = (0..40).map(|k| row(k) + "\n");
+    let text = format!("{above}{}", rows.collect::<String>());
+    let start = find(text.as_bytes(), false)?;
+    assert_eq!(start.silent_bytes > 0, start.silent_lines > 0);
+    Some((start.lines, start.silent_lines))
+}
+
+#[test]
+fn first_lines_without_values_stay_right_above_samples() {
+    for (above, expected) in [
+        ("", 0),
+        ("1,,\n", 1),
+        ("1,,\n2,,\n\n3,,\n", 4),
+        (",,\n,,\n", 2),
+        ("nan,,\n,,\n", 2),
+        // A sample.
+        ("1,,0.5\n", 0),
+    ] {
+        assert_eq!(silent(above, three), Some((0, expected)), "{above}");
+    }
+    assert_eq!(silent("5,\n\n,\n", two), Some((0, 3)));
+    assert_eq!(silent("5,\n", three), Some((1, 0)));
+    let apart = |k: usize| format!("0.{k} -0.{k}");
+    assert_eq!(silent("5 \n", apart), Some((1, 0)));
+    // Above a line that is cut they tell nothing.
+    let later = |k: usize| format!("12.{:05},0.{k},-0.{k}", 341 + k);
+    assert_eq!(silent(",,\n40,0.2,-0.2\n", later), Some((2, 0)));
+    // Above names and settings they are padding.
+    for (names, skipped) in [("time,c,d\n", 2), ("Model,X\ntime,c,d\n", 3)] {
+        let above = format!(",,\n,,\n{names}");
+        assert_eq!(silent(&above, three), Some((skipped, 0)), "{names}");
+    }
+    // However many they are, the samples are waited for.
+    let lines = "1,,\n".repeat(500);
+    assert_eq!(find(lines.as_bytes(), false), None);
+    assert_eq!(silent(&lines, three), Some((0, 500)));
+    assert_eq!(
+        find("1,,\n".repeat(5000).as_bytes(), false),
+        Some(Start::default())
+    );
+}
+
 #[test]
 fn the_columns_of_numbers_are_found() {
     let row = |k: usize| format!("{},{k}e-5,,0.{k},,", ["a,x", "b,1", ",", ","][k % 4]);

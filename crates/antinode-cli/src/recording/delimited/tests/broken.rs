@@ -183,6 +183,52 @@ fn pairs_without_values_at_the_edges_are_no_faults() {
 }
 
 #[test]
+fn without_a_header_first_lines_without_values_are_pairs() {
+    let rows = |separator: char, first: &dyn Fn(usize) -> String| {
+        let row = move |k: usize| format!("{}{}{separator}{}\n", first(k), k * k % 7, k * k % 5);
+        (3..40).map(row).collect::<String>()
+    };
+    let timed = rows(',', &|k| format!("{k},"));
+    let plain = rows(';', &|_| String::new());
+    let begins = "the first 3 sample pairs have no values: the recording begins behind them";
+    for (text, missing) in [
+        (format!("0,,\n1,,\n2,,\n{timed}"), 3),
+        // Where the time is missing too, that of the samples tells when they begin.
+        (format!(",,\n,,\n,,\n{timed}"), 0),
+        (format!(";\n;\n;\n{plain}"), 3),
+    ] {
+        let (_directory, path) = file("a.csv", text.as_bytes());
+        let mut recording = Recording::open(&path, &OpenOptions::default()).unwrap();
+        let start = if missing == 0 { 3.0 } else { 0.0 };
+        assert_eq!(recording.opened.start, start, "{text}");
+        let (pairs, fault) = drain(&mut recording);
+        assert!(
+            fault.is_none() && recording.not_finite().is_none(),
+            "{text}"
+        );
+        assert!(
+            pairs[..missing]
+                .iter()
+                .flatten()
+                .all(|value| value.is_nan())
+        );
+        assert_eq!(
+            (pairs.len() - missing, pairs[missing]),
+            (37, [2.0, 4.0]),
+            "{text}"
+        );
+        let warnings: Vec<String> = recording.late_warnings().collect();
+        assert_eq!(warnings.contains(&begins.to_owned()), missing > 0, "{text}");
+    }
+    // What is wrong with the columns is told of the first sample.
+    let four: String = (2..40).map(|k| format!("{k},1,2,{k}\n")).collect();
+    let (_directory, path) = file("a.csv", format!("0,,,\n1,,,\n{four}").as_bytes());
+    let fault = Recording::open(&path, &OpenOptions::default()).err();
+    let fault = fault.map(|fault| fault.to_string()).unwrap_or_default();
+    assert!(fault.contains("a.csv:3: found 4 columns"), "{fault}");
+}
+
+#[test]
 fn behind_a_line_that_is_cut_a_rising_signal_is_no_time() {
     let rows = (0..20).map(|k| format!("0.{},0.5\n", 100 + 10 * k + k * k / 10));
     let text = format!("5\n{}", rows.collect::<String>());

@@ -196,6 +196,7 @@ mod tests {
         // Fixed notation shows enough digits of the value or of the deviation.
         assert_eq!(with_std(0.001, 2e-9), "0.001000000 ±0.000000002");
         assert_eq!(with_std(2e-5, 1e-8), "0.000020000 ±0.000000010");
+        assert_eq!(with_std(-0.5, 2e-9), "-0.500000000 ±0.000000002");
     }
 
     #[test]

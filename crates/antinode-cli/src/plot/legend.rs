@@ -195,7 +195,31 @@ fn shortened(name: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::axis::Scale;
     use super::*;
+
+    #[test]
+    fn long_names_stay_in_the_picture_side_by_side() {
+        let figure = Figure {
+            time: Scale::Logarithmic.axis(String::new(), &(1.0..2.0)),
+            panels: Vec::new(),
+            flagged: Vec::new(),
+        };
+        let names: Vec<String> = (0..8)
+            .map(|k| "a long name ".repeat(4) + &k.to_string())
+            .collect();
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        canvas::register_fonts();
+        let legend = Legend::new(&figure, &names).unwrap();
+        let mut end = (0, MARGIN);
+        for Entry { text, x, y, .. } in &legend.entries {
+            let (width, _) = (FONT, TEXT).into_font().box_size(text).unwrap();
+            assert!(x + KEY + width <= WIDTH, "{x}");
+            assert!(*y >= end.1 + LINE || *y == end.1 && *x >= end.0, "{x}, {y}");
+            end = (x + KEY + width, *y);
+        }
+        assert!(end.1 > MARGIN && legend.height() >= end.1 + LINE);
+    }
 
     #[test]
     fn each_recording_has_a_colour_of_its_own() {

@@ -171,7 +171,7 @@ fn a_table_shows_each_method_in_the_columns_of_its_row() {
     let heading = table.lines().position(|line| line.contains("time, s"));
     let lines: Vec<&str> = table.lines().skip(heading.unwrap() + 1).collect();
     assert_eq!(lines.len(), 5 * rows.len());
-    for window in lines.chunks(5) {
+    for (window, row) in lines.chunks(5).zip(&rows) {
         // Decimal points are aligned.
         let points = |line: &str| {
             let places: Vec<usize> = line
@@ -187,6 +187,9 @@ fn a_table_shows_each_method_in_the_columns_of_its_row() {
             assert!(line.trim_start().starts_with(&format!("method {}", i + 1)));
             assert_eq!(points(line)[0], main, "{table}");
             assert!(line.contains("σ") && line.contains("rank"), "{line}");
+            let fails = row.text(&format!("method{}_failed_conditions", i + 1));
+            assert_eq!(line.contains(", fails "), !fails.is_empty(), "{line}");
+            assert!(!line.contains("unexplained"), "{line}");
         }
     }
 }

@@ -65,6 +65,20 @@ fn reports_missing_in_a_long_hole_are_told_as_at_least_so_many() {
 }
 
 #[test]
+fn reports_missing_where_none_tells_the_time_are_told() {
+    let told = told(&[&[SEARCHING, Err(40_000), SEARCHING]]);
+    assert_eq!(
+        told,
+        [
+            "state: searching for a wave",
+            "state: searching for a wave",
+            "lost: 40000 by the reports' numbers, but none of them tells the time: the device may have restarted",
+            "standard input: 0 estimates and 2 other reports; at least 0 lost, 0 damaged",
+        ]
+    );
+}
+
+#[test]
 fn a_restart_whose_start_is_not_received_is_told_and_costs_no_reports() {
     let told = told(&[
         &[Err(40_000), counters(80)],

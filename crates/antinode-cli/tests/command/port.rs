@@ -1,14 +1,18 @@
 //! `antinode command` on a port.
 #![cfg(unix)]
 
-use std::io::Write;
+use std::io::{Read, Write};
 use std::path::Path;
 use std::thread;
 use std::time::{Duration, Instant};
 
 use crate::common::device::{Device, pair, wait_for_input};
 use crate::common::run;
-use antinode_telemetry::{Cause, Command as Asked, MAX_FRAME, Report, Reporter, State};
+use antinode::Settings;
+use antinode_telemetry::{
+    Acknowledgement, Cause, Command as Asked, CommandFrame, Configuration, Decoder, FrontEnd,
+    Hello, MAX_FRAME, Report, Reporter, State,
+};
 
 #[test]
 fn commands_are_done_and_acknowledged() {
@@ -155,6 +159,43 @@ fn a_command_that_is_not_heard_is_sent_again() {
         restart.err
     );
     assert_eq!(deaf.asked.try_iter().count(), 0);
+}
+
+#[test]
+fn settings_that_do_not_arrive_are_asked_for_again() {
+    let (mut port, path) = pair();
+    let device = thread::spawn(move || {
+        let (mut commands, mut reporter) = (Decoder::<CommandFrame>::new(), Reporter::new());
+        let mut asked = 0;
+        while asked < 2 {
+            let mut bytes = [0; 64];
+            // Reading fails while nobody has the other end open.
+            let length = port.read(&mut bytes).unwrap_or(0);
+            for byte in &bytes[..length] {
+                let Some(Ok(CommandFrame { id, .. })) = commands.push(*byte) else {
+                    continue;
+                };
+                asked += 1;
+                let configuration = Configuration::new(Settings::new(1e5), FrontEnd::DualAdc);
+                let answer = Acknowledgement { id, result: Ok(()) };
+                let hello = (asked == 2).then(|| Report::Hello(Hello::new("1.2.3", configuration)));
+                for report in hello.into_iter().chain([Report::Acknowledgement(answer)]) {
+                    let mut buffer = [0; MAX_FRAME];
+                    let frame = reporter.frame(&report, &mut buffer).unwrap();
+                    port.write_all(frame).unwrap();
+                }
+            }
+        }
+        port
+    });
+    let get = run(Path::new("."), &format!("command {path} --timeout 1 get"));
+    assert!(
+        get.code == 0 && get.out.contains("firmware 1.2.3"),
+        "{} {}",
+        get.out,
+        get.err
+    );
+    device.join().unwrap();
 }
 
 #[test]

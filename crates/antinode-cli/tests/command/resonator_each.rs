@@ -98,6 +98,28 @@ fn each_recording_has_the_line_of_its_own_resonator() {
         assert!(line["rows"].parse::<usize>().unwrap() > 300);
         assert!((line["residual_over_noise"].parse::<f64>().unwrap() - 1.0).abs() < 0.1);
     }
+    // The table shows the same, with angles in degrees.
+    let table = resonator_of_each(here, &rows, "").1;
+    let degrees = 1f64.to_degrees();
+    for (line, name) in table.lines().skip(1).zip(["a.wav", "b.wav"]) {
+        let cells: Vec<_> = line.split("  ").filter(|cell| !cell.is_empty()).collect();
+        let shown = [
+            ("frequency_hz", 1.0),
+            ("decay_time_s", 1.0),
+            ("quality_factor", 1.0),
+            ("damping_split_s", 1.0),
+            ("most_damped_at_rad", degrees),
+            ("frequency_split_hz", 1.0),
+            ("highest_at_rad", degrees),
+        ];
+        assert_eq!((cells[0], cells.len()), (name, shown.len() + 2), "{table}");
+        for (cell, (quantity, unit)) in cells[1..].iter().zip(shown) {
+            let (value, std) = cell.split_once(" ±").unwrap();
+            let [value, std] = [value, std].map(|text| text.parse::<f64>().unwrap());
+            let expected = lines[name][quantity].parse::<f64>().unwrap() * unit;
+            assert!((value - expected).abs() < 0.1 * std, "{cell}: {expected}");
+        }
+    }
     // Of a pattern at rest, the note is no warning; those of a pattern that turns one way are.
     assert_eq!(
         ["a.wav", "b.wav", "rest.wav"].map(|name| lines[name]["warnings"].as_str()),

@@ -3,7 +3,9 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::ring_downs::{damped, four_seconds, of_resonator, resonator, rows};
+use crate::common::ring_downs::{
+    damped, four_seconds, identified, of_resonator, record, resonator, rows,
+};
 use crate::common::{done, run};
 
 #[test]
@@ -108,6 +110,28 @@ fn what_the_motion_leaves_of_each_row_is_written() {
     let most = (0..main.len()).max_by(|&one, &other| main[one].abs().total_cmp(&main[other].abs()));
     assert!(main[most.unwrap()] > 8.0, "{}", main[most.unwrap()]);
     assert_eq!(times[most.unwrap()].to_string(), cells[0]);
+}
+
+#[test]
+fn rows_of_a_residual_have_the_number_of_their_run() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    for (name, rate) in [("one.wav", "0.4"), ("other.wav", "-0.4")] {
+        record(here, name, &format!("--decay-rate 0.2 --angle-rate {rate}"));
+    }
+    fs::write(here.join("rows.csv"), identified(here, "one.wav other.wav")).unwrap();
+    done(here, "resonator rows.csv --residual left.csv");
+    let text = fs::read_to_string(here.join("left.csv")).unwrap();
+    let mut runs: Vec<_> = text
+        .lines()
+        .skip(1)
+        .map(|line| {
+            let cells: Vec<_> = line.split(',').collect();
+            (cells[1], cells[5])
+        })
+        .collect();
+    runs.dedup();
+    assert_eq!(runs, [("1", "one.wav"), ("2", "other.wav")]);
 }
 
 #[test]

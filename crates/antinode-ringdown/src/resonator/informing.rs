@@ -34,3 +34,26 @@ fn on_decay(run: &Run) -> f64 {
     let weighted = |row: &Row| [(row.main / row.deviations[0]).powi(2), row.time];
     Times::new(run.rows.iter().map(weighted)).along
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn information_is_that_of_a_line_through_logarithms() {
+        // Rows at 0, 1 and 2 s: times are 2 s² in all from their middle.
+        let run = |main: f64, noise: f64| Run {
+            file: String::new(),
+            rows: (0..3)
+                .map(|k| Row::of(k.into(), [main, 0.0, 0.0], [noise; 3]))
+                .collect(),
+        };
+        for (main, noise, expected) in [(1.0, 1.0, 2.0), (1.0, 0.01, 2e4), (3.0, 1.0, 18.0)] {
+            let information = on_decay(&run(main, noise));
+            assert!(
+                (information / expected - 1.0).abs() < 1e-12,
+                "{information} {expected}"
+            );
+        }
+    }
+}

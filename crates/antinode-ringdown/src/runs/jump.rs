@@ -195,6 +195,27 @@ mod tests {
     }
 
     #[test]
+    fn across_a_long_gap_the_rates_before_it_tell() {
+        // A change that comes at another rate behind these rows.
+        let bent = |rate: f64| move |t: f64| 1e-3 * t + (rate - 1e-3) * (t - 39.0).max(0.0);
+        for index in 0..3 {
+            for (missing, rate, is_seen) in [
+                (5, 2e-3, true),
+                (9, 2e-3, false),
+                (20, 2e-3, false),
+                (40, 2e-3, false),
+                (9, 5e-3, true),
+                (40, 5e-3, true),
+            ] {
+                // The amplitude decays besides.
+                let decay = if index == 0 { 0.02 } else { 0.0 };
+                let seen = is_jump(index, 40, missing, |t| decay * t + bent(rate)(t));
+                assert_eq!(seen, is_seen, "{index}, {missing}, {rate}");
+            }
+        }
+    }
+
+    #[test]
     fn a_jump_is_seen_beside_noise_and_a_turn_of_any_rate() {
         let mut random = Deviates::new(3);
         for (index, rate) in [

@@ -191,6 +191,26 @@ fn the_truth_describes_the_wave_and_its_rates_are_those_of_differences() {
 }
 
 #[test]
+fn a_circle_has_a_truth() {
+    for b in [1.0, -1.0] {
+        for split in [[0.2, 0.15, -0.2, 0.06, 1.0], [0.0, 0.15, 0.0, 0.0, 0.0]] {
+            let [rotation, delta, damped_at, split, highest_at] = split;
+            let wave = wave([b, rotation, delta, damped_at, split, highest_at]);
+            for t in [0.0, 1e-6, 0.01, 1.0] {
+                let truth = wave.at(t);
+                let rates = [truth.angle_rate, truth.decay_rate, truth.frequency];
+                assert!(rates.iter().all(|rate| rate.is_finite()), "{truth:?}");
+                let ([c, d], (c0, d0)) = (wave.pick_offs(t), seen(&truth));
+                assert!(
+                    (c - c0).abs() < 1e-13 && (d - d0).abs() < 1e-13,
+                    "{t}: {c} {c0} {d} {d0}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
 fn the_angle_is_continuous() {
     for (index, wave) in waves().into_iter().enumerate() {
         let step = 0.002;

@@ -3,4 +3,5 @@
 mod any;
 mod messages;
 mod noise;
+mod numbers;
 mod wire;

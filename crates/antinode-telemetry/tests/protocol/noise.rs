@@ -153,6 +153,14 @@ fn another_version_is_named() {
     let got = decode::<ReportFrame>(&checked(&[18, 0, 2, 2]));
     assert_eq!(got, [Err(Damage::Header(18))]);
     assert!(Damage::Header(18).to_string().contains("version 9"));
+    // This version's other direction is no other version.
+    for header in [2 * PROTOCOL_VERSION, 2 * PROTOCOL_VERSION + 1] {
+        let told = Damage::Header(header).to_string();
+        assert!(
+            told.contains("other direction") && !told.contains("version"),
+            "{told}"
+        );
+    }
 }
 
 #[test]

@@ -244,3 +244,20 @@ fn samples_that_look_like_the_name_of_a_chunk_are_told() {
             .contains("promises 0 sample pairs, but more follow")
     );
 }
+
+#[test]
+fn samples_whose_values_look_like_the_size_of_a_chunk_are_told() {
+    // Four pairs more than promised, of which the second would be the size of the last two.
+    let more = [-9000, -5000, 8, 0, 1, 2, 3, 4]
+        .map(i16::to_le_bytes)
+        .concat();
+    let mut unfinished = wav(format(1, 2, 16), &[&PAIR_16.repeat(3)[..], &more].concat());
+    unfinished.size = 12;
+    unfinished.riff = unfinished.bytes().len() as u32 - 8;
+    assert_eq!(unfinished.read().0.len(), 3);
+    assert!(
+        unfinished
+            .fault()
+            .contains("promises 3 sample pairs, but more follow")
+    );
+}

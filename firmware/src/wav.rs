@@ -107,6 +107,7 @@ mod tests {
             file(1, 1, 16),
             file(1, 2, 24),
             file(1, 2, 16)[..40].to_vec(),
+            [b"RIFF\0\0\0\0AVI ", &file(1, 2, 16)[12..]].concat(),
         ] {
             assert_eq!(find(&refused), None);
         }

@@ -1,7 +1,7 @@
 //! Priority of reports on a line without room for all of them, without loss of blocks.
 
 use antinode_sim::Wave;
-use antinode_telemetry::{Command, Configuration, Report};
+use antinode_telemetry::{Command, Configuration, Counters, Report};
 use firmware::settings::{COUNTERS_MS, HALF, SAMPLE_RATE, SOONEST_MS};
 
 use crate::board::{BYTES, Board, board, board_on, windows_of};
@@ -49,6 +49,26 @@ fn counters_of_drops_leave_room_on_the_line_for_estimates() {
         counters.len() as u32 <= end / SOONEST_MS + 1,
         "{}",
         counters.len()
+    );
+}
+
+#[test]
+fn a_drop_is_reported_soon() {
+    // So many blocks in six halves that one queue does not hold them.
+    let (mut times, mut at) = (Vec::new(), 0);
+    board(windows_of(2, Some(30)), |board| {
+        board.wire.pass(10 * BYTES);
+        if board.half == 300 {
+            (board.missed, at) = (5, board.now);
+        }
+        let dropped =
+            |counters: &Counters| (counters.blocks_dropped > 0).then_some(counters.uptime_ms);
+        times = board.wire.counters().iter().map(dropped).collect();
+        board.now < 900
+    });
+    assert!(
+        matches!(times[..], [Some(told)] if told < u64::from(at + SOONEST_MS)),
+        "{at}: {times:?}"
     );
 }
 

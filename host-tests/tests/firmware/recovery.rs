@@ -1,6 +1,6 @@
 //! Losses, stalls and delays on the host: the pipeline recovers and keeps counting.
 
-use antinode::{Calibration, Flags, Packed};
+use antinode::{Calibration, Flags, Packed, SamplePair};
 use antinode_sim::Wave;
 use antinode_telemetry::{Cause, Command, CommandError, Report, State};
 use firmware::gather::Gatherer;
@@ -113,6 +113,7 @@ fn a_stalled_converter_is_restarted() {
         board.wire.pass(100 * BYTES);
         let counters = last_counters(&board.wire.reports);
         assert_eq!((counters.restarts, counters.overruns), (still, 0));
+        assert_eq!(counters.saturated_blocks, 0);
         assert_eq!(counters.pairs + counters.pairs_lost, source.taken as u64);
         let least = u64::from(still * STALL_MS * SAMPLE_RATE / 1000);
         let lost = counters.pairs_lost;
@@ -168,6 +169,22 @@ fn a_device_that_does_not_sample_still_executes_commands() {
     let is_state = |report: &&Report| matches!(report, Report::State(_));
     let last = board.wire.reports.iter().rfind(is_state);
     assert_eq!(last, Some(&Report::State(fault)));
+}
+
+#[test]
+fn commands_are_logged_as_done_or_not() {
+    let (_, board) = Board::new(hop_of(5));
+    board.command(1, Command::Get);
+    board.command(2, Command::SetHop { blocks: Some(0) });
+    let mut events = Vec::new();
+    board.instrument.poll(0, |event| events.push(event));
+    let answered = |id, done| Event::Answered { id, done };
+    let expected = [
+        answered(1, true),
+        answered(2, false),
+        Event::State(State::Searching),
+    ];
+    assert_eq!(events, expected);
 }
 
 #[test]
@@ -267,6 +284,26 @@ fn blocks_before_the_last_answer_are_discarded() {
         after[0].start
     );
     assert_eq!(after[0].flags, Flags::REACQUIRED);
+}
+
+#[test]
+fn one_sample_at_any_rail_saturates_its_block() {
+    let codes = recordings::codes(recordings::WAVE, recordings::quiet(), 40_000);
+    let [low, high] = DUAL_ADC_RAILS;
+    for rail in [
+        [Some(low), None],
+        [Some(high), None],
+        [None, Some(low)],
+        [None, Some(high)],
+    ] {
+        let mut codes = codes.clone();
+        let [c, d]: [i16; 2] = codes[20_000].pair();
+        codes[20_000] = Packed::from([rail[0].unwrap_or(c), rail[1].unwrap_or(d)]);
+        // The overrun has the counters reported.
+        let counters = last_counters(&reports_of::<i16>(Recorded::torn(&codes, 300), (0, &[]), 1));
+        let saturated = (counters.saturated_pairs, counters.saturated_blocks);
+        assert_eq!(saturated, (1, 1), "{rail:?}");
+    }
 }
 
 #[test]

@@ -23,6 +23,7 @@ struct State {
     /// The trigger whose pair is not yet in the ring.
     converting: Option<u32>,
     has_overrun: bool,
+    is_ring_started: bool,
     /// The ring: pairs written in this round, and all that was written last.
     written: usize,
     memory: Vec<Packed>,
@@ -42,7 +43,8 @@ impl State {
 
     /// The last trigger's pair is written, if it has not been yet.
     fn convert(&mut self) {
-        let Some(number) = self.converting.take() else {
+        let converted = self.converting.take();
+        let Some(number) = converted.filter(|_| self.is_ring_started) else {
             return;
         };
         self.memory[self.written] = Packed(number);
@@ -65,12 +67,15 @@ impl Converter for Chip {
 
     fn stop(&mut self) {
         let mut state = self.0.borrow_mut();
+        assert!(!state.is_ring_started, "the ring must be stopped before");
         (state.is_armed, state.has_overrun) = (false, false);
         state.converting = None;
     }
 
     fn arm(&mut self) {
         let mut state = self.0.borrow_mut();
+        assert!(state.is_ring_started, "the ring must be started before");
+        assert!(!state.is_armed, "the converter must be stopped before");
         (0..ARMING).for_each(|_| state.trigger());
         state.is_armed = true;
     }
@@ -85,10 +90,14 @@ impl Converter for Chip {
 }
 
 impl Ring for Chip {
-    fn stop(&mut self) {}
+    fn stop(&mut self) {
+        self.0.borrow_mut().is_ring_started = false;
+    }
 
     fn start(&mut self) {
         let mut state = self.0.borrow_mut();
+        assert!(!state.is_ring_started, "it must be stopped");
+        state.is_ring_started = true;
         (state.written, state.done) = (0, Done::default());
     }
 

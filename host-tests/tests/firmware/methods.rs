@@ -1,7 +1,16 @@
 //! The paper's four methods beside every estimate.
 
-use antinode_telemetry::{Command, Methods, Report};
+use std::f64::consts::TAU;
 
+use antinode::{Estimate, Flags, Front, Tracker};
+use antinode_sim::{Dropout, DropoutKind, Flaws, Wave};
+use antinode_telemetry::{Command, FrontEnd, Methods, Report};
+use firmware::methods::{Gathering, History, Tuning};
+use firmware::sampling::DUAL_ADC_RAILS;
+use firmware::settings::{LONGEST_PERIOD, RING, configuration};
+use host_tests::RATE;
+
+use crate::board::{BYTES, board, windows_of};
 use crate::emulator::{Device, bytes};
 use crate::told::estimates;
 use crate::{mirror, recordings};
@@ -89,4 +98,153 @@ fn methods_are_off_by_default_and_can_be_switched_off_again() {
     device.command(2, Command::SetMethods { on: false });
     let (reports, ..) = device.finish();
     assert!(methods(&reports).is_empty() && estimates(&reports).len() > 200);
+}
+
+#[test]
+fn a_tuning_serves_while_offsets_and_frequency_stay_within_their_noise() {
+    let recording = recordings::codes(recordings::WAVE, recordings::quiet(), 5000);
+    let found = estimates(&mirror::reports::<i16>(&recording, &[], 1))[10];
+    let tuning = Tuning::of(&found, RATE);
+    let root = f64::from(found.samples).sqrt();
+    let offset = 7.0 * found.residual_rms / root as f32;
+    let turn = TAU * f64::from(found.samples) / RATE;
+    let frequency = 0.01 / turn + 7.0 * f64::from(found.frequency_std);
+    for (share, serves) in [
+        (0.0, true),
+        (0.9, true),
+        (-0.9, true),
+        (1.1, false),
+        (-1.1, false),
+    ] {
+        let [c, d] = found.offsets;
+        let by = share as f32 * offset;
+        for offsets in [[c + by, d], [c, d + by]] {
+            let other = Estimate { offsets, ..found };
+            assert_eq!(tuning.serves(&other, RATE), serves, "{share}");
+        }
+        let other = Estimate {
+            frequency: found.frequency + share * frequency,
+            ..found
+        };
+        assert_eq!(tuning.serves(&other, RATE), serves, "{share}");
+    }
+    // A frequency that is hardly known: a quarter period is 5 samples, then 6 and 9.
+    for (share, serves) in [(0.8, true), (0.5, false)] {
+        let other = Estimate {
+            frequency: share * found.frequency,
+            frequency_std: 1e6,
+            ..found
+        };
+        assert_eq!(tuning.serves(&other, RATE), serves, "{share}");
+    }
+}
+
+#[test]
+fn the_methods_are_tuned_again_to_a_frequency_that_drifts() {
+    let wave = Wave {
+        frequency_rate: 100.0,
+        ..recordings::WAVE
+    };
+    let recording = recordings::codes(wave, recordings::quiet(), 100_000);
+    let on = bytes(1, Command::SetMethods { on: true });
+    let methods = methods(&mirror::reports::<i16>(&recording, &on, 1));
+    assert!(methods.len() > 400, "{}", methods.len());
+    let disagree = methods.iter().filter(|m| m.disagree).count();
+    assert_eq!(disagree, 0, "of {}", methods.len());
+}
+
+#[test]
+fn a_window_without_a_wave_is_not_compared() {
+    let flaws = Flaws {
+        dropouts: vec![Dropout {
+            from: 0.2,
+            to: 0.25,
+            kind: DropoutKind::NoiseOnly,
+            channel: None,
+        }],
+        ..recordings::quiet()
+    };
+    let recording = recordings::codes(recordings::WAVE, flaws, 40_000);
+    let on = bytes(1, Command::SetMethods { on: true });
+    let reports = mirror::reports::<i16>(&recording, &on, 1);
+    let lost: Vec<_> = estimates(&reports)
+        .iter()
+        .filter(|estimate| estimate.flags.contains(Flags::LOST))
+        .map(|estimate| estimate.start)
+        .collect();
+    assert!(!lost.is_empty());
+    let methods = methods(&reports);
+    assert!(methods.len() > 100, "{}", methods.len());
+    assert!(methods.iter().all(|methods| !lost.contains(&methods.start)));
+}
+
+#[test]
+fn methods_are_told_and_come_again_after_they_were_off() {
+    let mut told = Vec::new();
+    board(windows_of(10, None), |board| {
+        board.wire.pass(100 * BYTES);
+        let id = board.half as u16;
+        if matches!(id, 100 | 200 | 300) {
+            board.command(id, Command::SetMethods { on: id != 200 });
+        }
+        told.clear();
+        for report in &board.wire.reports {
+            match (report, told.last_mut()) {
+                (Report::Hello(hello), _) => told.push((hello.configuration.methods, 0)),
+                (Report::Methods(_), Some((_, count))) => *count += 1,
+                _ => {}
+            }
+        }
+        board.half < 400
+    });
+    let expected = [false, true, false, true];
+    assert!(told.iter().map(|&(on, _)| on).eq(expected), "{told:?}");
+    assert!(
+        told.iter()
+            .all(|&(on, count)| if on { count > 50 } else { count == 0 }),
+        "{told:?}"
+    );
+}
+
+#[test]
+fn sums_of_different_tunings_are_not_compared() {
+    let recording = recordings::codes(recordings::WAVE, recordings::quiet(), 5000);
+    let settings = configuration(FrontEnd::Synthetic, DUAL_ADC_RAILS).settings;
+    let mut front = Front::<i16, LONGEST_PERIOD>::new(settings).expect("the settings can be");
+    let mut tracker = Tracker::<RING>::new(settings).expect("the settings can be");
+    let found = estimates(&mirror::reports::<i16>(&recording, &[], 1))[10];
+    let other = Estimate {
+        offsets: [0.0; 2],
+        ..found
+    };
+    let mut gatherings = [found, other].map(|estimate| {
+        let mut gathering = Gathering::new();
+        gathering.tune(Some(Tuning::of(&estimate, RATE)));
+        gathering
+    });
+    // Of the first tuning, of the second, and of both in turn.
+    let mut histories = [(); 3].map(|()| History::<i16>::new());
+    let mut rest = recording.as_slice();
+    let mut count = 0;
+    while !rest.is_empty() {
+        let (taken, block) = front.push_slice(rest);
+        let (done, after) = rest.split_at(taken);
+        rest = after;
+        let [first, second] = gatherings
+            .each_mut()
+            .map(|gathering| gathering.add(done, block));
+        let Some(block) = block else { continue };
+        count += 1;
+        let mixed = if count % 2 == 0 { &first } else { &second };
+        histories[0].keep(&first);
+        histories[1].keep(&second);
+        histories[2].keep(mixed);
+        if let Some(estimate) = tracker.push(block).filter(|_| count > 20) {
+            let compared = histories
+                .each_ref()
+                .map(|history| history.compare(&estimate, RATE).is_some());
+            assert_eq!(compared, [true, true, false]);
+        }
+    }
+    assert!(count > 100);
 }

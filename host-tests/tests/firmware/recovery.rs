@@ -8,7 +8,7 @@ use firmware::instrument::Event;
 use firmware::sampling::{DUAL_ADC_RAILS, Lapse, Ready, Source, both};
 use firmware::settings::{HALF, QUEUE, REQUESTS, SAMPLE_RATE, SOONEST_MS, STALL_MS, WATCHDOG_MS};
 
-use crate::board::{BYTES, Board, Losing, hop_of};
+use crate::board::{BYTES, Board, Losing, hop_of, windows_of};
 use crate::emulator::bytes;
 use crate::mirror::{MISSED, Recorded, reports_of};
 use crate::recordings;
@@ -304,6 +304,25 @@ fn one_sample_at_any_rail_saturates_its_block() {
         let saturated = (counters.saturated_pairs, counters.saturated_blocks);
         assert_eq!(saturated, (1, 1), "{rail:?}");
     }
+}
+
+#[test]
+fn a_rail_in_a_block_cut_short_by_a_gap_saturates_no_block() {
+    let mut codes = recordings::codes(recordings::WAVE, recordings::quiet(), 40_000);
+    codes[199 * HALF - 1] = Packed(0);
+    let mut source = Recorded::torn(&codes, 200);
+    let (gatherer, mut board) = Board::new(windows_of(10, None));
+    for _ in 0..210 {
+        gatherer.serve(&mut source);
+        board.instrument.poll(0, |_| {});
+        board.wire.pass(10 * BYTES);
+    }
+    // Those of the gap came before the next block.
+    board.instrument.report_counters();
+    board.wire.pass(10 * BYTES);
+    let counters = last_counters(&board.wire.reports);
+    let saturated = (counters.saturated_pairs, counters.saturated_blocks);
+    assert_eq!((counters.restarts, saturated), (1, (1, 0)));
 }
 
 #[test]

@@ -132,15 +132,3 @@ fn pairs_at_a_rail_during_the_search_belong_to_no_block() {
         (500, 0)
     );
 }
-
-#[test]
-fn a_pair_at_a_rail_in_a_block_cut_short_by_a_gap_saturates_no_block() {
-    let mut recording = recordings::codes(recordings::WAVE, recordings::quiet(), 40_000);
-    recording[299 * HALF - 1] = antinode::Packed(0);
-    let reports = reports_of::<i16>(Recorded::torn(&recording, 300), (0, &[]), 1);
-    let counters = last_counters(&reports);
-    assert_eq!(
-        (counters.saturated_pairs, counters.saturated_blocks),
-        (1, 0)
-    );
-}

@@ -146,28 +146,31 @@ mod tests {
     #[test]
     fn runs_are_those_at_the_extremes() {
         let mut seed = 1u32;
-        let mut long = 0;
-        for _ in 0..2000 {
-            // Three values give many runs, most of them not at an extreme of the samples so far.
-            let samples: [f32; 20] = core::array::from_fn(|_| {
-                seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-                ((seed >> 24) % 3) as f32 - 1.0
-            });
-            let mut watch = ChannelWatch::<f32>::empty();
-            for (&sample, index) in samples.iter().zip(0..) {
-                watch.see(sample, index);
+        // Values of either sign only, and of both.
+        for least in [-4.0, -1.0, 1.0] {
+            let mut long = 0;
+            for _ in 0..2000 {
+                // Three values give many runs, most of them not at an extreme of the samples so far.
+                let samples: [f32; 20] = core::array::from_fn(|_| {
+                    seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                    ((seed >> 24) % 3) as f32 + least
+                });
+                let mut watch = ChannelWatch::<f32>::empty();
+                for (&sample, index) in samples.iter().zip(0..) {
+                    watch.see(sample, index);
+                }
+                let low = samples.iter().copied().fold(f32::INFINITY, f32::min);
+                let high = samples.iter().copied().fold(f32::NEG_INFINITY, f32::max);
+                let run = |end: f32| {
+                    let runs = samples.split(|&sample| sample != end);
+                    runs.map(|run| run.len() as u16).max().unwrap_or(0)
+                };
+                assert_eq!([watch.low, watch.high], [low, high]);
+                assert_eq!(watch.longest(), [run(low), run(high)], "{samples:?}");
+                long += usize::from(watch.longest()[1] > 2);
             }
-            let low = samples.iter().copied().fold(f32::INFINITY, f32::min);
-            let high = samples.iter().copied().fold(f32::NEG_INFINITY, f32::max);
-            let run = |end: f32| {
-                let runs = samples.split(|&sample| sample != end);
-                runs.map(|run| run.len() as u16).max().unwrap_or(0)
-            };
-            assert_eq!([watch.low, watch.high], [low, high]);
-            assert_eq!(watch.longest(), [run(low), run(high)], "{samples:?}");
-            long += usize::from(watch.longest()[1] > 2);
+            assert!(long > 100);
         }
-        assert!(long > 100);
     }
 
     #[test]

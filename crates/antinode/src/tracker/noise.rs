@@ -169,7 +169,7 @@ pub(super) fn limit_of(sigmas: f32, freedom: f32, other: f32) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use super::limit;
+    use super::{Noise, limit};
 
     #[test]
     fn limits_are_those_of_the_f_distribution_or_a_little_above() {
@@ -189,5 +189,19 @@ mod tests {
             );
         }
         assert!(limit(20.0, 8.0).is_infinite() && limit(20.0, 0.0).is_infinite());
+    }
+
+    #[test]
+    fn a_clean_window_between_raised_ones_keeps_the_level() {
+        let mut noise = Noise::NONE;
+        let raised =
+            |noise: &mut Noise, count: u32| (0..count).for_each(|_| noise.count_raised(5, 5));
+        for _ in 0..2 {
+            noise.learn(1.0, 1.0, 1.0, 20.0);
+            raised(&mut noise, Noise::NEW_LEVEL - 1);
+        }
+        assert_eq!(noise.freedom, 40.0);
+        raised(&mut noise, 1);
+        assert_eq!(noise.freedom, 0.0);
     }
 }

@@ -1,5 +1,6 @@
 //! A wave that is hardly visible beside other signals is given up after eight windows and searched anew.
 
+use antinode::{Front, Settings, Tracker};
 use antinode_sim::{Flaws, random_wave};
 use host_tests::{Core, RATE, stream, windows};
 
@@ -73,5 +74,47 @@ fn a_wave_of_which_less_than_a_quarter_remains_in_misfits_is_given_up() {
                 );
             }
         }
+    }
+}
+
+#[test]
+fn failures_of_a_wave_that_was_given_up_do_not_count_for_the_next_one() {
+    let (period, window) = (20.0, 200);
+    for seed in 0..4 {
+        let wave = random_wave(seed, RATE / period, 0.3);
+        let a = wave.main_amplitude;
+        let settings = Settings {
+            frequency: Some(wave.frequency as f32),
+            ..windows(10)
+        };
+        let mut front = Front::<f32, 256>::new(settings).unwrap();
+        let mut tracker = Tracker::<256>::new(settings).unwrap();
+        let (lost, back) = (10 * window, 20 * window);
+        let mut searches = Vec::new();
+        let pairs = stream(wave, Flaws::white(1e-3 * a), back + 8 * window, seed);
+        for (k, pair) in pairs.into_iter().enumerate() {
+            let pair = if k < lost {
+                pair
+            } else if k < back {
+                [0.0; 2]
+            } else {
+                // Blocks do not show a tone of twice the frequency, but samples do: each window counts as one with little of a wave.
+                let phase = std::f64::consts::TAU * 2.0 * k as f64 / period + seed as f64;
+                let tone = |phase: f64| (1.2 * a * phase.cos()) as f32;
+                [pair[0] + tone(phase), pair[1] + tone(phase + 1.0)]
+            };
+            if let Some(block) = front.push(pair) {
+                let estimate = tracker.push(block);
+                if k >= back && estimate.is_some() {
+                    searches.push(tracker.wanted_search());
+                }
+                front.search_if_wanted(tracker.wanted_search());
+            }
+        }
+        let before = searches[0];
+        assert!(before > 0);
+        let mut expected = [before; 8];
+        expected[7] += 1;
+        assert_eq!(searches, expected, "seed {seed}");
     }
 }

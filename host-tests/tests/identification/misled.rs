@@ -52,6 +52,35 @@ fn blocks_match_the_period_in_spite_of_a_disturbed_start() {
 }
 
 #[test]
+fn blocks_match_the_period_again_if_a_lost_wave_comes_back_with_a_disturbed_start() {
+    let (period, noise) = (50.0, Flaws::white(1e-3));
+    let (lost, back) = (5_000, 12_000);
+    let mut misled = 0;
+    for seed in 0..100 {
+        let mut random = Random::new(seed);
+        let mut draw = || 3.0 * f64::from(random.draw());
+        let disturbed: Vec<[f64; 2]> = (0..5 * (1 + seed % 8)).map(|_| [draw(), draw()]).collect();
+        let found = identify_changed(
+            wave_of(period),
+            &noise,
+            windows(10),
+            20_000,
+            seed.into(),
+            |k, pair| match k {
+                k if k >= back => disturbed.get(k - back).copied().unwrap_or(pair),
+                k if k >= lost => [0.0; 2],
+                _ => pair,
+            },
+        );
+        let behind = found.iter().filter(|e| e.start >= back as u64);
+        let off = behind.filter(|e| e.samples.abs_diff(500) > 10).count();
+        assert!(off <= 1, "seed {seed}: {off}");
+        misled += off;
+    }
+    assert!(misled >= 10, "{misled}");
+}
+
+#[test]
 fn blocks_that_never_match_are_searched_for_once() {
     let gyro = Gyro::new(wave_of(50.0), Flaws::white(1e-3), RATE, 1).unwrap();
     // A front that is told a period of 52 samples begins so again and again.

@@ -36,7 +36,11 @@ fn settings(periods: u16, hum: bool) -> Settings {
 #[test]
 fn slow_waves_in_much_hum_are_not_clipped() {
     for (period, periods) in [(100.0, 5), (60.0, 5), (60.0, 10), (18.75, 10)] {
-        for size in [0.1, 0.3, 1.0] {
+        // On both pick-offs, or on one of them only.
+        for (size, [on_c, on_d]) in [0.1, 0.3, 1.0]
+            .into_iter()
+            .flat_map(|size| [[1.0, 0.8], [1.0, 0.0], [0.0, 1.0]].map(|on| (size, on)))
+        {
             let wave = random_wave(27, RATE / period, 0.5);
             let size = size * wave.main_amplitude;
             let flaws = Flaws::white(size / 50.0);
@@ -44,11 +48,13 @@ fn slow_waves_in_much_hum_are_not_clipped() {
             let settings = settings(periods, true);
             let found = identify_changed(wave, &flaws, settings, samples, 27, |k, [c, d]| {
                 let tone = size * (std::f64::consts::TAU * 50.0 * k as f64 / RATE).cos();
-                [c + tone, d + 0.8 * tone]
+                [c + on_c * tone, d + on_d * tone]
             });
             assert!(found.len() > 190, "{}", found.len());
             for estimate in &found {
-                let label = format!("{period} samples a period, {periods} periods, {size}");
+                let label = format!(
+                    "{period} samples a period, {periods} periods, {size} on [{on_c}, {on_d}]"
+                );
                 assert!(estimate.flags.is_empty(), "{label}: {}", estimate.flags);
             }
         }

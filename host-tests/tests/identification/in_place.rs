@@ -161,3 +161,23 @@ fn a_configuration_in_place_forgets_that_the_pattern_vibrated() {
     core.configure(windows(10)).unwrap();
     assert_eq!(run(&mut core), new);
 }
+
+#[test]
+fn after_a_change_at_a_known_frequency_a_window_begins_at_once() {
+    let wave = Wave::default();
+    let known = Settings {
+        frequency: Some(wave.frequency as f32),
+        ..windows(10)
+    };
+    let pairs = stream(wave, Flaws::white(0.001), 10_000, 2);
+    let mut core = Core::new(known).unwrap();
+    core.extend(&pairs, |_| {});
+    core.change(Settings {
+        periods: 20,
+        ..known
+    })
+    .unwrap();
+    let mut found = Vec::new();
+    core.extend(&pairs, |estimate| found.push(estimate));
+    assert_eq!(found[0].start, 10_000);
+}

@@ -110,6 +110,44 @@ fn the_frequency_of_a_vibrating_pattern_has_a_deviation_that_allows_for_its_unkn
 }
 
 #[test]
+fn the_third_window_behind_a_fault_allows_for_a_vibration_too() {
+    // By 5 rad/s at 20 Hz. A line through three angles is off by more than a parabola through five.
+    let window = 19 * 10;
+    let samples = 300 * window;
+    let faults = (100..samples).step_by(8 * window);
+    let (mut squares, mut rows) = (0.0, 0.0);
+    for seed in 0..12 {
+        let wave = turning(seed, 5332.0, 0.8, 0.0);
+        let flaws = noisy(&wave, 1e-3);
+        let found = identify_changed(wave, &flaws, windows(10), samples, seed, |k, [c, d]| {
+            let time = k as f64 / RATE;
+            let vibration = std::f64::consts::TAU * 20.0;
+            let turned = 5.0 / vibration * (vibration * time + seed as f64).sin();
+            let angle = wave.angle + turned;
+            let (still, now) = (wave.pick_offs(time), Wave { angle, ..wave }.pick_offs(time));
+            let fault = if k % (8 * window) == 100 {
+                f64::NAN
+            } else {
+                0.0
+            };
+            [c + now[0] - still[0] + fault, d + now[1] - still[1]]
+        });
+        // Until the vibration is detected.
+        for fault in faults.clone().skip(4) {
+            let mut behind = found.iter().filter(|e| e.start > fault as u64);
+            let third = behind.nth(2).expect("a window");
+            assert!(third.flags.is_empty(), "seed {seed}: {}", third.flags);
+            let error = (third.frequency - wave.frequency) / f64::from(third.frequency_std);
+            squares += error * error;
+            rows += 1.0;
+        }
+    }
+    let rms = f64::sqrt(squares / rows);
+    println!("third windows behind a fault: error of f over stated {rms:.2} of {rows}");
+    assert!(rows > 400.0 && (0.8..1.2).contains(&rms), "{rms}");
+}
+
+#[test]
 fn a_step_of_the_angle_is_not_taken_for_a_vibration() {
     // Steps in rad; later rows know their frequency as well as before, or nearly so if nothing flags the step.
     for (step, most) in [(0.002, 1.8), (0.05, 1.15), (0.3, 1.15)] {

@@ -98,7 +98,7 @@ fn failures_of_a_wave_that_was_given_up_do_not_count_for_the_next_one() {
             } else if k < back {
                 [0.0; 2]
             } else {
-                // Blocks do not show a tone of twice the frequency, but samples do: each window counts as one with little of a wave.
+                // Blocks do not show a tone of twice the frequency, but samples do: each window has little of a wave beside it.
                 let phase = std::f64::consts::TAU * 2.0 * k as f64 / period + seed as f64;
                 let tone = |phase: f64| (1.2 * a * phase.cos()) as f32;
                 [pair[0] + tone(phase), pair[1] + tone(phase + 1.0)]

@@ -14,30 +14,45 @@ fn wave_of(period: f64) -> Wave {
     }
 }
 
+/// What is found in `samples` pairs of a wave of 50 samples a period, of which those from `at` on are random for up to 40 pairs; `before`
+/// says what each pair before these is.
+fn disturbed(
+    seed: u32,
+    samples: usize,
+    at: usize,
+    before: impl Fn(usize, [f64; 2]) -> [f64; 2],
+) -> Vec<Estimate> {
+    let mut random = Random::new(seed);
+    let mut draw = || 3.0 * f64::from(random.draw());
+    let disturbed: Vec<[f64; 2]> = (0..5 * (1 + seed % 8)).map(|_| [draw(), draw()]).collect();
+    let (wave, noise) = (wave_of(50.0), Flaws::white(1e-3));
+    identify_changed(
+        wave,
+        &noise,
+        windows(10),
+        samples,
+        seed.into(),
+        |k, pair| match k.checked_sub(at) {
+            Some(behind) => disturbed.get(behind).copied().unwrap_or(pair),
+            None => before(k, pair),
+        },
+    )
+}
+
+/// Whether the blocks of a window do not match the period.
+fn is_off(estimate: &Estimate) -> bool {
+    estimate.samples.abs_diff(500) > 10
+}
+
 #[test]
 fn blocks_match_the_period_in_spite_of_a_disturbed_start() {
-    let (period, noise) = (50.0, Flaws::white(1e-3));
     let mut misled = 0;
     for seed in 0..100 {
-        let mut random = Random::new(seed);
-        let mut draw = || 3.0 * f64::from(random.draw());
-        let disturbed: Vec<[f64; 2]> = (0..5 * (1 + seed % 8)).map(|_| [draw(), draw()]).collect();
-        let found = identify_changed(
-            wave_of(period),
-            &noise,
-            windows(10),
-            5_000,
-            seed.into(),
-            |k, pair| disturbed.get(k).copied().unwrap_or(pair),
-        );
-        let is_off = |e: &&Estimate| e.samples.abs_diff(500) > 10;
-        let off = found.iter().take_while(is_off).count();
+        let found = disturbed(seed, 5_000, 0, |_, pair| pair);
+        let off = found.iter().take_while(|e| is_off(e)).count();
         misled += off;
         // One window shows it, and the next one is flagged as all are after a search.
-        assert!(
-            off <= 1 && !found[off..].iter().any(|e| is_off(&e)),
-            "seed {seed}"
-        );
+        assert!(off <= 1 && !found[off..].iter().any(is_off), "seed {seed}");
         for (i, estimate) in found.iter().enumerate() {
             let is_anew = off > 0 && i == off;
             let flags = if is_anew {
@@ -53,27 +68,13 @@ fn blocks_match_the_period_in_spite_of_a_disturbed_start() {
 
 #[test]
 fn blocks_match_the_period_again_if_a_lost_wave_comes_back_with_a_disturbed_start() {
-    let (period, noise) = (50.0, Flaws::white(1e-3));
     let (lost, back) = (5_000, 12_000);
     let mut misled = 0;
     for seed in 0..100 {
-        let mut random = Random::new(seed);
-        let mut draw = || 3.0 * f64::from(random.draw());
-        let disturbed: Vec<[f64; 2]> = (0..5 * (1 + seed % 8)).map(|_| [draw(), draw()]).collect();
-        let found = identify_changed(
-            wave_of(period),
-            &noise,
-            windows(10),
-            20_000,
-            seed.into(),
-            |k, pair| match k {
-                k if k >= back => disturbed.get(k - back).copied().unwrap_or(pair),
-                k if k >= lost => [0.0; 2],
-                _ => pair,
-            },
-        );
+        let silent = |k, pair| if k < lost { pair } else { [0.0; 2] };
+        let found = disturbed(seed, 20_000, back, silent);
         let behind = found.iter().filter(|e| e.start >= back as u64);
-        let off = behind.filter(|e| e.samples.abs_diff(500) > 10).count();
+        let off = behind.filter(|e| is_off(e)).count();
         assert!(off <= 1, "seed {seed}: {off}");
         misled += off;
     }

@@ -110,6 +110,7 @@ mod tests {
             (["mV", "mV"], Together::Same),
             (["", ""], Together::Same),
             (["V", ""], Together::Same),
+            (["mV", ""], Together::Same),
             (["A", "B"], Together::Same),
             (["left", "right"], Together::Same),
             (["V", "MV"], Together::Unsure),

@@ -220,6 +220,18 @@ mod tests {
     }
 
     #[test]
+    fn a_corner_is_found_to_the_row_among_many() {
+        for count in [40, 500, 4000] {
+            for share in [0.25, 0.5, 0.61, 0.8] {
+                let at = (share * count as f64).round();
+                let held = energies(count, 5, |time| [-2e-2 * (time - at).max(0.0), 0.3]);
+                let found = corner(&held, MIN_ROWS / 2);
+                assert!((found as f64 - at).abs() <= 1.0, "{count}, {at}: {found}");
+            }
+        }
+    }
+
+    #[test]
     fn ring_downs_of_any_length_are_parted_from_the_drives_between_them() {
         for seed in 0..60 {
             let mut random = Deviates::new(seed);

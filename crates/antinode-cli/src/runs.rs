@@ -193,7 +193,7 @@ impl Runs {
         while rows.advance()? {
             let record = rows.record();
             // The row of a lost wave may lack a time; it is then counted in any case.
-            if let Some(time) = places.time(record).filter(|time| time.is_finite()) {
+            if let Some(time) = places.time(record) {
                 let [first, last] = self.span.unwrap_or([time; 2]);
                 self.span = Some([first.min(time), last.max(time)]);
                 if !self.asked.contains(&time) {

@@ -15,7 +15,7 @@ fn a_spike_or_a_small_step_in_the_first_window_is_flagged() {
         (50, 0.08, 0.0, 88),
         (20, 0.0, 0.016, 90),
     ] {
-        // That no noise is known before is not taken for codes without noise, whose steps would explain more.
+        // Of codes a floor of noise is known, which must not hide faults while no noise has been seen.
         for codes in [Some(500.0), None] {
             let mut told = 0;
             for seed in 0..100 {

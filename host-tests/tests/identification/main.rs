@@ -45,3 +45,4 @@ mod survey;
 mod symmetries;
 mod tones;
 mod turning;
+mod vibrating;

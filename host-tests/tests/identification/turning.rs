@@ -6,7 +6,7 @@ use host_tests::score::{NAMES, Score, StatedRatio, errors, stated};
 use host_tests::{Core, RATE, identify, identify_changed, windows};
 
 /// A wave of random angle and phase with this quadrature, as a share of a_A, which turns at `rate` rad/s.
-fn turning(seed: u64, frequency: f64, share: f64, rate: f64) -> Wave {
+pub fn turning(seed: u64, frequency: f64, share: f64, rate: f64) -> Wave {
     let wave = random_wave(seed, frequency, 0.5);
     Wave {
         quadrature_amplitude: share * wave.main_amplitude,
@@ -15,7 +15,8 @@ fn turning(seed: u64, frequency: f64, share: f64, rate: f64) -> Wave {
     }
 }
 
-fn noisy(wave: &Wave, noise: f64) -> Flaws {
+/// White noise of this share of a_A.
+pub fn noisy(wave: &Wave, noise: f64) -> Flaws {
     Flaws::white(noise * wave.main_amplitude)
 }
 
@@ -55,129 +56,6 @@ fn fast_turning_with_much_quadrature_is_neither_biased_nor_flagged() {
         println!("a_B of {share} a_A, {turn} rad a window: error over stated {ratios:.3?}");
         for (name, ratio) in NAMES.iter().zip(ratios) {
             assert!((0.8..1.12).contains(&ratio), "{name} at {ratio}");
-        }
-    }
-}
-
-#[test]
-fn the_frequency_of_a_vibrating_pattern_has_a_deviation_that_allows_for_its_unknown_rate() {
-    // Periods a window, a_B in a_A, largest rate in rad/s, and frequency of the vibration in Hz.
-    for (periods, share, rate, vibration) in [
-        (10, 0.3, 5.0, 20.0),
-        (10, 0.6, 1.0, 50.0),
-        (10, 0.8, 5.0, 20.0),
-        (20, 0.3, 0.3, 20.0),
-        (20, 0.6, 0.3, 20.0),
-        (20, 0.6, 5.0, 5.0),
-        (20, 0.8, 1.0, 20.0),
-    ] {
-        let (mut squares, mut rows, mut worst) = (0.0, 0.0, 0f64);
-        for seed in 0..6 {
-            let wave = turning(seed, 5332.0, share, 0.0);
-            let vibrating = |k: usize| {
-                let phase = std::f64::consts::TAU * vibration * k as f64 / RATE + seed as f64;
-                let turned = rate / (std::f64::consts::TAU * vibration) * phase.sin();
-                let angle = wave.angle + turned;
-                Wave { angle, ..wave }.pick_offs(k as f64 / RATE)
-            };
-            let settings = windows(periods);
-            let samples = 300 * 19 * usize::from(periods);
-            let flaws = noisy(&wave, 1e-3);
-            let found = identify_changed(wave, &flaws, settings, samples, seed, |k, [c, d]| {
-                // A fault is no vibration, and does not hide one after it.
-                let fault = if k == 100_003 { f64::NAN } else { 0.0 };
-                let (still, now) = (wave.pick_offs(k as f64 / RATE), vibrating(k));
-                [c + now[0] - still[0] + fault, d + now[1] - still[1]]
-            });
-            // Until the vibration is detected.
-            for estimate in found.iter().skip(30).filter(|e| e.flags.is_empty()) {
-                let error =
-                    (estimate.frequency - wave.frequency) / f64::from(estimate.frequency_std);
-                squares += error * error;
-                rows += 1.0;
-                worst = worst.max(error.abs());
-            }
-        }
-        let rms = f64::sqrt(squares / rows);
-        println!(
-            "{periods} periods, a_B of {share} a_A, {rate} rad/s at {vibration} Hz: error of f over stated {rms:.2}, {worst:.1} at the most"
-        );
-        assert!(
-            rows > 1500.0 && (0.8..1.2).contains(&rms) && worst < 7.0,
-            "{rows} {rms} {worst}"
-        );
-    }
-}
-
-#[test]
-fn the_third_window_behind_a_fault_allows_for_a_vibration_too() {
-    // By 5 rad/s at 20 Hz. A line through three angles is off by more than a parabola through five.
-    let window = 19 * 10;
-    let samples = 300 * window;
-    let faults = (100..samples).step_by(8 * window);
-    let (mut squares, mut rows) = (0.0, 0.0);
-    for seed in 0..12 {
-        let wave = turning(seed, 5332.0, 0.8, 0.0);
-        let flaws = noisy(&wave, 1e-3);
-        let found = identify_changed(wave, &flaws, windows(10), samples, seed, |k, [c, d]| {
-            let time = k as f64 / RATE;
-            let vibration = std::f64::consts::TAU * 20.0;
-            let turned = 5.0 / vibration * (vibration * time + seed as f64).sin();
-            let angle = wave.angle + turned;
-            let (still, now) = (wave.pick_offs(time), Wave { angle, ..wave }.pick_offs(time));
-            let fault = if k % (8 * window) == 100 {
-                f64::NAN
-            } else {
-                0.0
-            };
-            [c + now[0] - still[0] + fault, d + now[1] - still[1]]
-        });
-        // Until the vibration is detected.
-        for fault in faults.clone().skip(4) {
-            let mut behind = found.iter().filter(|e| e.start > fault as u64);
-            let third = behind.nth(2).expect("a window");
-            assert!(third.flags.is_empty(), "seed {seed}: {}", third.flags);
-            let error = (third.frequency - wave.frequency) / f64::from(third.frequency_std);
-            squares += error * error;
-            rows += 1.0;
-        }
-    }
-    let rms = f64::sqrt(squares / rows);
-    println!("third windows behind a fault: error of f over stated {rms:.2} of {rows}");
-    assert!(rows > 400.0 && (0.8..1.2).contains(&rms), "{rms}");
-}
-
-#[test]
-fn a_step_of_the_angle_is_not_taken_for_a_vibration() {
-    // Steps in rad; later rows know their frequency as well as before, or nearly so if nothing flags the step.
-    for (step, most) in [(0.002, 1.8), (0.05, 1.15), (0.3, 1.15)] {
-        for periods in [10, 50] {
-            let (mut sum, mut rows) = (0.0, 0.0);
-            for seed in 0..6 {
-                let wave = turning(seed, 5332.0, 0.8, 0.0);
-                let window = 19 * usize::from(periods);
-                let at = 60 * window + 7;
-                let flaws = noisy(&wave, 1e-3);
-                let settings = windows(periods);
-                let found =
-                    identify_changed(wave, &flaws, settings, 100 * window, seed, |k, [c, d]| {
-                        let angle = wave.angle + if k < at { 0.0 } else { step };
-                        let (time, turned) = (k as f64 / RATE, Wave { angle, ..wave });
-                        let (still, now) = (wave.pick_offs(time), turned.pick_offs(time));
-                        [c + now[0] - still[0], d + now[1] - still[1]]
-                    });
-                let deviations = |from: usize, to: usize| -> f64 {
-                    let rows = found.iter().skip(from).take(to - from);
-                    rows.map(|e| f64::from(e.frequency_std)).sum::<f64>() / (to - from) as f64
-                };
-                sum += deviations(68, 85) / deviations(20, 55);
-                rows += 1.0;
-            }
-            let wider = sum / rows;
-            println!(
-                "{step} rad, {periods} periods: deviations of f behind it {wider:.2} times those before"
-            );
-            assert!(wider < most, "{step}, {periods} periods: {wider}");
         }
     }
 }

@@ -45,14 +45,14 @@ impl Places {
 
     /// The time of a row, s, and its angle, rad, if they are numbers.
     pub fn way(&self, record: &StringRecord) -> Option<[f64; 2]> {
-        let [time, _, _, angle, ..] = self.needed.map(|place| number(record, place));
-        Some([time?, angle.filter(|angle| angle.is_finite())?])
+        let [_, _, _, angle, ..] = self.needed;
+        Some([self.time(record)?, finite_number(record, angle)?])
     }
 
     /// The time of a row, s, if it is a number.
     pub fn time(&self, record: &StringRecord) -> Option<f64> {
         let [time, ..] = self.needed;
-        number(record, time)
+        finite_number(record, time)
     }
 
     /// Reads a row; fails if a number is missing, not finite or out of the range that rows in single precision have.
@@ -108,4 +108,9 @@ impl Places {
             phase_std: deviation(of_phase)?,
         })
     }
+}
+
+/// The number in a field of a row, if it is one and finite.
+fn finite_number(record: &StringRecord, place: usize) -> Option<f64> {
+    number(record, place).filter(|number| number.is_finite())
 }

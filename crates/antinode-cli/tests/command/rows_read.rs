@@ -172,20 +172,22 @@ fn a_lost_wave_counts_however_its_time_is_missing() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     let text = ring_down(here);
-    let found = |time: &str| {
+    let found = |flags: &str, time: &str| {
         let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
         let place = |name: &str| lines[0].split(',').position(|one| one == name).unwrap();
         let [time_at, flags_at] = [place("time_s"), place("flags")];
         let mut fields: Vec<_> = lines[20].split(',').collect();
-        (fields[time_at], fields[flags_at]) = (time, "lost");
+        (fields[time_at], fields[flags_at]) = (time, flags);
         lines[20] = fields.join(",");
         let found = run_with(here, "resonator -", lines.join("\n").into());
         (found.code, found.out, found.err)
     };
-    let expected = found("");
-    assert!(expected.1.contains("52 of 53 rows"), "{}", expected.1);
-    for time in ["NaN", "null", "inf"] {
-        assert_eq!(found(time), expected, "{time}");
+    for flags in ["lost", "reacquired"] {
+        let expected = found(flags, "");
+        assert!(expected.1.contains("52 of 53 rows"), "{}", expected.1);
+        for time in ["NaN", "null", "inf"] {
+            assert_eq!(found(flags, time), expected, "{flags}, {time}");
+        }
     }
 }
 

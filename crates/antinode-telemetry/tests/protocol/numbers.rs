@@ -41,7 +41,7 @@ fn a_hello_whose_number_begins_anew_is_no_start() {
 
 #[test]
 fn behind_a_start_without_its_hello_no_number_expected_before_is_believed() {
-    // Report 1 of the new start comes again at most: those from 2 to 6 are missing.
+    // Report 5 was expected before the start; now 2 is, and 2 to 4 are missing.
     let reports = [(4, SEARCHING), (1, STARTED), (5, SEARCHING)];
     assert_eq!(
         places(&reports),

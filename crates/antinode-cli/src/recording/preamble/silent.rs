@@ -2,8 +2,7 @@
 //!
 //! They are sample pairs that are missing if samples follow at once, and padding above names or settings.
 
-use super::Line;
-use super::is_sample;
+use super::{Line, is_sample};
 
 /// The number of first lines that hold a number at most, their first, in as many fields as the line below them; 0 if that has others.
 pub(super) fn count(lines: &[Line], separator: u8) -> usize {

@@ -29,7 +29,7 @@ fn sparse(split: f64, seed: u64) -> Vec<Run> {
 fn a_gap_in_which_patterns_move_far_is_bridged() {
     // 1 mHz, which a search finds by itself, and 2 mHz, which it does not.
     for (split, is_found) in [(6.3e-3, true), (12.6e-3, false)] {
-        for seed in 0..10 {
+        for seed in 0..20 {
             let runs = sparse(split, seed);
             let plain = searched(&runs, Model::steady(Kind::Shared)).unwrap();
             assert_eq!(

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::{DVector, RowSVector};
+use nalgebra::{DVector, SVector};
 
 use super::curve::{BY_ENERGY, CURVES, IN_TIME};
 use super::motion::{KAPPA, Motion, PARAMETERS, RATES};
@@ -206,15 +206,15 @@ impl Model {
         motion: &mut Motion,
         from: &Row,
         to: &Row,
-    ) -> (f64, RowSVector<f64, PARAMETERS>) {
+    ) -> (f64, SVector<f64, PARAMETERS>) {
         let seconds = to.time - from.time;
         if !self.is_unsteady() {
             motion.advance(seconds);
-            return (0.0, RowSVector::zeros());
+            return (0.0, SVector::zeros());
         }
         let pieces = if to.bow == [0.0; BOWS] { 1 } else { PIECES };
         let seconds = seconds / f64::from(pieces);
-        let (mut beyond, mut derivatives) = (0.0, RowSVector::zeros());
+        let (mut beyond, mut derivatives) = (0.0, SVector::zeros());
         let mut turned = 0.0;
         for piece in 1..=pieces {
             let now = to.turned(from, f64::from(piece) / f64::from(pieces));

@@ -27,19 +27,14 @@
 mod rates;
 mod series;
 
-use nalgebra::{
-    Matrix3x4, Matrix4, Matrix4x3, RowSVector, RowVector4, SMatrix, SVector, Vector3, Vector4,
-};
+use nalgebra::{Matrix3x4, Matrix4, RowVector4, SMatrix, SVector, Vector3, Vector4};
 use num_complex::Complex;
-use series::Series;
+use series::{Derivatives, Series};
 
 use crate::runs::{Row, per_radian, turn};
 pub use rates::{GAMMA, KAPPA, RATES, by_rates, state};
+pub use series::PARAMETERS;
 
-/// Number of parameters: the rates, and the wave at the start, a_A, a_B, θ.
-pub const PARAMETERS: usize = RATES + 3;
-/// The state and its derivatives by all parameters.
-const COLUMNS: usize = 1 + PARAMETERS;
 /// Squared relative change of a wave in half a window, with half its growth's square added, up to which the core takes it to grow and turn
 /// evenly.
 const MAX_CHANGE: f64 = 1.95;
@@ -47,7 +42,8 @@ const MAX_CHANGE: f64 = 1.95;
 /// The state E, R, S, Q, and its derivatives by the rates and by the wave at the start.
 #[derive(Debug, Clone)]
 pub struct Motion {
-    columns: SMatrix<f64, 4, COLUMNS>,
+    state: Vector4<f64>,
+    derivatives: Derivatives,
     rates: SVector<f64, RATES>,
     /// The matrix by which all rates but γ and κ move the state.
     matrix: Matrix4<f64>,
@@ -62,25 +58,22 @@ impl Motion {
     pub fn new(&[rates @ .., main, quadrature, angle]: &[f64; PARAMETERS]) -> Self {
         let (sine, cosine) = (4.0 * angle).sin_cos();
         let state = state(main, quadrature, angle);
-        let by_start = Matrix4x3::new(
+        let by_start = Matrix3x4::new(
             main,
-            quadrature,
-            0.0,
             main * cosine,
-            -quadrature * cosine,
-            -2.0 * state[2],
             main * sine,
-            -quadrature * sine,
-            2.0 * state[1],
             quadrature,
+            quadrature,
+            -quadrature * cosine,
+            -quadrature * sine,
             main,
+            0.0,
+            -2.0 * state[2],
+            2.0 * state[1],
             0.0,
         ) * 2.0;
-        let mut columns = SMatrix::<f64, 4, COLUMNS>::zeros();
-        columns.set_column(0, &state);
-        columns
-            .fixed_columns_mut::<3>(1 + RATES)
-            .copy_from(&by_start);
+        let mut derivatives = Derivatives::zeros();
+        derivatives.fixed_rows_mut::<3>(RATES).copy_from(&by_start);
         let rates = SVector::from(rates);
         let mut still = rates;
         still[KAPPA] = 0.0;
@@ -91,7 +84,8 @@ impl Motion {
             .map(|unit| by_rates(&unit.into_owned()) * still);
         let matrix = Matrix4::from_columns(&moved.collect::<Vec<_>>());
         let mut motion = Self {
-            columns,
+            state,
+            derivatives,
             rates,
             matrix,
             within_period: Matrix4::zeros(),
@@ -143,37 +137,29 @@ impl Motion {
     }
 
     /// Sets the pattern to an angle that no parameter changes; returns by how much it stood beyond that, and the derivatives of this.
-    pub fn turn_to(&mut self, angle: f64) -> (f64, RowSVector<f64, PARAMETERS>) {
-        let (r, s) = (self.columns[(1, 0)], self.columns[(2, 0)]);
+    pub fn turn_to(&mut self, angle: f64) -> (f64, SVector<f64, PARAMETERS>) {
+        let (r, s) = (self.state[1], self.state[2]);
         let apart = r.hypot(s).max(f64::MIN_POSITIVE);
-        let [by_r, by_s] = [1, 2].map(|row| self.columns.row(row).into_owned());
+        let [by_r, by_s] = [1, 2].map(|column| self.derivatives.column(column).into_owned());
         let along = (by_r * r + by_s * s) / apart;
         let across = (by_s * r - by_r * s) * (0.25 / (apart * apart));
         let (sine, cosine) = (4.0 * angle).sin_cos();
-        self.columns.set_row(1, &(along * cosine));
-        self.columns.set_row(2, &(along * sine));
+        (self.state[1], self.state[2]) = (apart * cosine, apart * sine);
+        self.derivatives.set_column(1, &(along * cosine));
+        self.derivatives.set_column(2, &(along * sine));
         let beyond = turn(0.25 * s.atan2(r) - angle);
-        (beyond, across.fixed_columns::<PARAMETERS>(1).into_owned())
-    }
-
-    /// The state E, R, S, Q now.
-    fn state(&self) -> Vector4<f64> {
-        self.columns.column(0).into_owned()
+        (beyond, across)
     }
 
     /// The state after this time, s, which may be negative.
     fn state_after(&self, seconds: f64) -> Vector4<f64> {
-        self.series.moved(self.state(), seconds)
+        self.series.moved(self.state, seconds)
     }
 
     /// Moves on by this time, s.
     pub fn advance(&mut self, seconds: f64) {
-        self.columns = self.series.moved(self.columns, seconds);
-    }
-
-    /// The slope of the state now.
-    fn slope(&self) -> Vector4<f64> {
-        self.series.slope(&self.state())
+        let (state, derivatives) = (&mut self.state, &mut self.derivatives);
+        self.series.advance(state, derivatives, seconds);
     }
 
     /// The travelling waves of a state, of which that of `sign` is the greater: its size, and the lesser one, whose phase against it is 4θ.
@@ -190,7 +176,7 @@ impl Motion {
     /// than its size. Any departure from that is averaged: the result is the mean of its logarithm, or of itself, by Simpson's rule.
     fn averaged(&self, seconds: f64, sign: f64) -> (f64, Complex<f64>) {
         let at = |by: f64| Self::travelling(&self.state_after(by), sign);
-        let (greater, lesser) = Self::travelling(&self.state(), sign);
+        let (greater, lesser) = Self::travelling(&self.state, sign);
         let [before, after] = [at(-0.5 * seconds), at(0.5 * seconds)];
         let grown = (before.0 * after.0 / (greater * greater)).powf(1.0 / 6.0);
         let change = 0.5 * (after.1 - before.1) / lesser;
@@ -205,7 +191,7 @@ impl Motion {
 
     /// R/E and S/E now.
     pub fn shares(&self) -> [f64; 2] {
-        let [e, r, s, _] = self.state().into();
+        let [e, r, s, _] = self.state.into();
         [r / e, s / e]
     }
 
@@ -221,9 +207,8 @@ impl Motion {
     /// Contribution of the pattern's turning now to the frequency, relative to the mean of both travelling waves weighted by their
     /// energies, rad/s: 2 θ̇ Q/E.
     pub fn frequency_by_turning(&self) -> f64 {
-        let state = self.state();
-        let [e, r, s, q] = state.into();
-        let slope = self.slope();
+        let [e, r, s, q] = self.state.into();
+        let slope = self.series.slope(&self.state);
         let turning = 0.25 * (r * slope[2] - s * slope[1]) / (r * r + s * s).max(f64::MIN_POSITIVE);
         2.0 * turning * q / e
     }
@@ -234,7 +219,7 @@ impl Motion {
     /// travelling wave, and from the components of the lesser one along that of the row and across it, which elsewhere is equivalent.
     pub fn residuals(&self, row: &Row) -> (Vector3<f64>, SMatrix<f64, 3, PARAMETERS>) {
         let sign = 1f64.copysign(row.quadrature);
-        let (now, lesser) = Self::travelling(&self.state(), sign);
+        let (now, lesser) = Self::travelling(&self.state, sign);
         let back = Complex::from_polar(1.0, -4.0 * row.angle);
         let [along, across] = [lesser * back, back * Complex::i()];
         // Derivatives by E, R, S and Q of the greater wave, and of the lesser along that of the row and across it.
@@ -261,7 +246,7 @@ impl Motion {
                 0.5 * sign * (greater - along),
                 -of_row.im * per_turn,
             ),
-            by_state * self.columns.fixed_columns::<PARAMETERS>(1),
+            by_state * self.derivatives.transpose(),
         )
     }
 }

@@ -1,6 +1,6 @@
 //! What the rows say of the unknowns near some values of these: the normal equations of a fit.
 
-use nalgebra::{DVector, RowSVector, SMatrix, SVector};
+use nalgebra::{DVector, SMatrix, SVector};
 
 use super::curve::{CURVES, curves, undamped};
 use super::found::{Found, RunResult};
@@ -64,7 +64,7 @@ impl Normal {
         let mut shares = [0.0; 2];
         let mut squares = 0.0;
         // Turn of the pattern that is not due to rotation.
-        let (mut extra, mut of_extra) = (0.0, RowSVector::zeros());
+        let (mut extra, mut of_extra) = (0.0, SVector::zeros());
         // The run's own equations, for the parameters of its motion and the curves of its damping.
         let mut matrix = SMatrix::<f64, N, N>::zeros();
         let mut right = SVector::<f64, N>::zeros();

@@ -18,14 +18,14 @@ fn parameters(main: f64, quadrature: f64, angle: f64) -> [f64; PARAMETERS] {
 impl Motion {
     /// a_A, a_B and θ (−π/4 to π/4) now.
     pub fn wave(&self) -> Vector3<f64> {
-        let [e, r, s, q] = self.columns.column(0).into_owned().into();
+        let [e, r, s, q] = self.state.into();
         let main = (0.5 * (e + r.hypot(s))).sqrt();
         Vector3::new(main, 0.5 * q / main, 0.25 * s.atan2(r))
     }
 
     /// Moves the state alone by this time, s: where no derivatives are wanted, that costs a fraction.
     pub fn move_state(&mut self, seconds: f64) {
-        self.columns.set_column(0, &self.state_after(seconds));
+        self.state = self.state_after(seconds);
     }
 }
 
@@ -112,7 +112,7 @@ fn the_motion_is_that_of_the_two_modes() {
         }
         // The means are those of half a period earlier.
         motion.advance(if second == 0 { 1.0 - 0.0025 } else { 1.0 });
-        let averaged: [f64; 4] = motion.columns.column(0).into_owned().into();
+        let averaged: [f64; 4] = motion.state.into();
         for (averaged, mean) in averaged.iter().zip(means) {
             assert!(
                 (averaged - mean).abs() < 3e-4,
@@ -140,7 +140,7 @@ fn a_state_stays_that_of_a_pattern() {
     // E² = R² + S² + Q², in whatever steps.
     let mut motion = Motion::new(&parameters);
     motion.advance(3.5);
-    let [e, r, s, q] = motion.columns.column(0).into_owned().into();
+    let [e, r, s, q] = motion.state.into();
     assert!((e * e - r * r - s * s - q * q).abs() < 1e-13 * e * e);
     let apart = (motion.wave() - after(&parameters).wave()).norm();
     assert!(apart < 1e-12, "{apart:e}");
@@ -193,7 +193,7 @@ fn windows_average_an_uneven_motion() {
     // The last wave changes by more than its size.
     for (quadrature, seconds) in [(-0.1, 0.0), (-0.1, 0.1), (-0.1, 0.4), (-0.799, 0.1)] {
         let motion = Motion::new(&parameters(0.8, quadrature, 0.6));
-        let now = motion.columns.column(0).into_owned();
+        let now = motion.state;
         let (greater, lesser) = Motion::travelling(&now, -1.0);
         // The means of both, or of their logarithms, over 200 parts of the window.
         let parts = 200;
@@ -224,7 +224,7 @@ fn windows_average_an_uneven_motion() {
     let mut even = Motion::new(&[0.11, 0.0, 0.0, 0.0, 0.0, 0.0, 0.3, 0.8, -0.1, 0.6]);
     even.advance(1.3);
     let (greater, lesser) = even.averaged(1.0, -1.0);
-    let now = Motion::travelling(&even.columns.column(0).into_owned(), -1.0);
+    let now = Motion::travelling(&even.state, -1.0);
     assert!((greater - now.0).abs() < 1e-9 && (lesser - now.1).norm() < 1e-9);
 }
 
@@ -325,7 +325,7 @@ fn rotation_acts_within_a_period() {
     let found = |kappa: f64| {
         let parameters = [decay, dc, ds, wc, ws, 0.0, kappa, 0.8, 0.3, 0.6];
         let motion = Motion::new(&parameters).of_frequency(omega);
-        motion.slope()
+        motion.series.slope(&motion.state)
     };
     // Terms that do not change sign with κ are parts of Δω, f and κ.
     let apart = found(kappa) - found(-kappa) - (slope(kappa) - slope(-kappa));

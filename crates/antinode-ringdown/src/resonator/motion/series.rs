@@ -54,7 +54,7 @@ impl Series {
         }
     }
 
-    /// A state after this time, s, which may be negative.
+    /// A state after this time, s, which may be negative; NaN if it is beyond [`LONGEST`].
     pub fn moved(&self, mut state: Vector4<f64>, seconds: f64) -> Vector4<f64> {
         let Some(steps) = self.steps(&state, seconds) else {
             return Vector4::repeat(f64::NAN);
@@ -65,7 +65,7 @@ impl Series {
         state
     }
 
-    /// Moves a state and its derivatives on by this time, s.
+    /// Moves a state and its derivatives on by this time, s; the state is NaN if that is beyond [`LONGEST`].
     pub fn advance(&self, state: &mut Vector4<f64>, derivatives: &mut Derivatives, seconds: f64) {
         let Some(steps) = self.steps(state, seconds) else {
             *state = Vector4::repeat(f64::NAN);

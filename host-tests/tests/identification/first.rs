@@ -89,6 +89,44 @@ fn a_step_within_a_long_first_window_is_flagged() {
 }
 
 #[test]
+fn a_burst_in_the_first_window_is_flagged_or_within_deviations() {
+    // A wave half as large again for two periods; from some places on it looks like noise.
+    for (from, least) in [(14, 20), (21, 130), (56, 200), (75, 200), (140, 120)] {
+        for noise in [0.002, 0.02] {
+            let (mut told, mut worst) = (0, 0f64);
+            for seed in 0..200 {
+                let wave = random_wave(seed, 5332.0, 0.3);
+                let flaws = Flaws::white(noise * wave.main_amplitude);
+                let settings = Settings {
+                    frequency: Some(5332.0),
+                    ..windows(10)
+                };
+                let found = identify_changed(wave, &flaws, settings, 220, seed, |k, pair| {
+                    let gain = if (from..from + 39).contains(&k) {
+                        1.5
+                    } else {
+                        1.0
+                    };
+                    pair.map(|value| gain * value)
+                });
+                let first = &found[0];
+                if first.flags.is_empty() {
+                    let error = f64::from(first.main_amplitude) - wave.main_amplitude;
+                    worst = worst.max(error.abs() / f64::from(first.main_amplitude_std));
+                } else {
+                    told += 1;
+                }
+            }
+            println!("burst from {from}, noise {noise}: {told} of 200 told, {worst:.1} sigma");
+            assert!(
+                told >= least && worst < 8.5,
+                "from {from}, noise {noise}: {told} told, {worst} sigma"
+            );
+        }
+    }
+}
+
+#[test]
 fn a_step_within_the_first_window_is_flagged() {
     for periods in [10, 20] {
         for (noise, factor) in [

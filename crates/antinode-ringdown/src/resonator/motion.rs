@@ -32,8 +32,7 @@ use num_complex::Complex;
 use series::{Derivatives, Series};
 
 use crate::runs::{Row, per_radian, turn};
-pub use rates::{GAMMA, KAPPA, RATES, by_rates, state};
-pub use series::PARAMETERS;
+pub use rates::{GAMMA, KAPPA, PARAMETERS, RATES, by_rates, state};
 
 /// Squared relative change of a wave in half a window, with half its growth's square added, up to which the core takes it to grow and turn
 /// evenly.
@@ -144,7 +143,9 @@ impl Motion {
         let along = (by_r * r + by_s * s) / apart;
         let across = (by_s * r - by_r * s) * (0.25 / (apart * apart));
         let (sine, cosine) = (4.0 * angle).sin_cos();
-        (self.state[1], self.state[2]) = (apart * cosine, apart * sine);
+        // Not `apart` itself, which is never NaN.
+        let size = (r * r + s * s) / apart;
+        (self.state[1], self.state[2]) = (size * cosine, size * sine);
         self.derivatives.set_column(1, &(along * cosine));
         self.derivatives.set_column(2, &(along * sine));
         let beyond = turn(0.25 * s.atan2(r) - angle);

@@ -4,6 +4,8 @@ use nalgebra::{SMatrix, Vector4};
 
 /// Number of rates that move a wave: 1/τ, δ c_τ, δ s_τ, Δω c_ω, Δω s_ω, γ, κ.
 pub const RATES: usize = 7;
+/// Number of parameters: the rates, and the wave at the start, a_A, a_B, θ.
+pub const PARAMETERS: usize = RATES + 3;
 /// The place of γ among them.
 pub const GAMMA: usize = 5;
 /// The place of κ.

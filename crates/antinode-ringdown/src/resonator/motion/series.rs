@@ -5,10 +5,8 @@
 
 use nalgebra::{Matrix4, SMatrix, Vector4};
 
-use super::rates::{GAMMA, RATES, by_rates};
+use super::rates::{GAMMA, PARAMETERS, RATES, by_rates};
 
-/// Number of parameters: the rates, and the wave at the start, a_A, a_B, θ.
-pub const PARAMETERS: usize = RATES + 3;
 /// The derivatives of E, R, S and Q by all parameters: a column each, as sums over a column take half as long.
 pub type Derivatives = SMatrix<f64, PARAMETERS, 4>;
 
@@ -20,7 +18,6 @@ const LAST: f64 = 1e-12;
 const LAST_OF_DERIVATIVES: f64 = 1e-8;
 /// Fastest rate times the time, at most: with more, the pattern turns by more than a radian, or the wave is gone, and no rows fit.
 const LONGEST: f64 = 10.0;
-
 /// Terms of a state's series, usually at most: 0.5¹²/12! is below `LAST`.
 const TERMS: usize = 13;
 
@@ -65,10 +62,11 @@ impl Series {
         state
     }
 
-    /// Moves a state and its derivatives on by this time, s; the state is NaN if that is beyond [`LONGEST`].
+    /// Moves a state and its derivatives on by this time, s; they are NaN if that is beyond [`LONGEST`].
     pub fn advance(&self, state: &mut Vector4<f64>, derivatives: &mut Derivatives, seconds: f64) {
         let Some(steps) = self.steps(state, seconds) else {
-            *state = Vector4::repeat(f64::NAN);
+            state.fill(f64::NAN);
+            derivatives.fill(f64::NAN);
             return;
         };
         for _ in 0..steps.count {

@@ -141,6 +141,11 @@ fn a_state_stays_that_of_a_pattern() {
     let mut motion = Motion::new(&parameters);
     // No rows fit so long a time.
     assert!(motion.state_after(100.0)[0].is_nan());
+    let mut lost = motion.clone();
+    lost.advance(100.0);
+    assert!(lost.derivatives.iter().all(|by| by.is_nan()));
+    lost.turn_to(0.6);
+    assert!(lost.state.iter().all(|value| value.is_nan()));
     let then = motion.state_after(3.5);
     motion.advance(3.5);
     assert_eq!(motion.state, then);
